@@ -12,7 +12,7 @@ use std::path::Path;
 type Serves = fn(&Blob<'_>) -> bool;
 
 /// The questions, by the names of the commands.
-const QUESTIONS: [(&str, Serves); 17] = [
+const QUESTIONS: [(&str, Serves); 18] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
     ("closest --frame", |blob| blob.deformable_hull().is_ok()),
     ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
@@ -21,6 +21,7 @@ const QUESTIONS: [(&str, Serves); 17] = [
     ("signed", |blob| tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree))),
     ("winding", |blob| tree(blob, BuildFor::Winding).is_some()),
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
+    ("segment --frame", |blob| blob.deformable_hull().is_ok()),
     ("overlap", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("clear", |blob| tree(blob, BuildFor::Segment).is_some()),
     ("clearance", |blob| tree(blob, BuildFor::Segment).is_some()),

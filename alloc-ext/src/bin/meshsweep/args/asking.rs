@@ -192,6 +192,16 @@ pub struct SegmentArgs {
     /// one]
     #[arg(long, value_enum, hide_possible_values = true)]
     pub engine: Option<Engine>,
+    /// Key frame of a blob built --for deform, from 0
+    ///
+    /// 1.25 is a quarter of the way from frame 1 to frame 2. Between frames no hit is proved.
+    #[arg(
+        long,
+        value_name = "FRAME",
+        value_parser = frame,
+        conflicts_with_all = ["engine", "facing"]
+    )]
+    pub frame: Option<f32>,
     #[command(flatten)]
     pub search: SearchArgs,
 }
