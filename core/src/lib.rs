@@ -48,7 +48,8 @@
 //! | hits from outside on that hull | [`Hull::outer_hits`] |
 //! | does a triangle, or a moved mesh, meet the surface; each refined only where they meet | [`Hull::meets_triangle`], [`Hull::overlap`], [`Hull::all_overlaps`] |
 //! | closest point, hits, and the next triangles on the split tables | [`Hull::closest_point`], [`Hull::first_hit`], [`Hull::sweep`] |
-//! | closest point of a mesh that deforms | [`FrameHull::closest_point`], [`MovedHull::closest_point`] |
+//! | closest point and hits of a mesh that deforms | [`FrameHull::closest_point`], [`FrameHull::first_hit`], [`MovedHull::closest_point`], [`MovedHull::first_hit`] |
+//! | closest point and next triangles while point and mesh move little | [`FrameHull::sweep`], [`MovedHull::sweep`] |
 //! | does a rigid mesh meet a mesh that deforms | [`FrameHull::overlap`], [`MovedHull::overlap`] |
 //!
 //! # Features

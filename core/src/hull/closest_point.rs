@@ -1,7 +1,8 @@
 //! Closest point by the sweeping process (Guéziec 2000, 3.2 and 4.3) on the split tables.
 
+use super::above::Above;
 use super::front::{Front, triangles};
-use super::geometry::Geometry;
+use super::geometry::{Geometry, frame};
 use super::nearest::Nearest;
 use crate::hull::format::{Hull, Instance};
 use crate::num::SOFT_DOUBLE;
@@ -19,8 +20,10 @@ impl Hull<'_> {
     /// point farther than 2^40 times the model's size gets the interval of the model's box.
     ///
     /// Cost: some hundreds of nodes and triangles near a scanned part. The worst case is all of
-    /// them, at the centre of a sphere. Where time is bounded, set [`Budget::with_steps`]. The box
-    /// tree ([`Bvh`](crate::Bvh)) answers the same question much faster. Source: Guéziec 2000, 4.3.
+    /// them, at the centre of a sphere. Where time is bounded, set [`Budget::with_steps`]. With a
+    /// tolerance the search begins with the distance of a vertex of the surface, unless the blob is
+    /// cut or its levels do not [enclose](Hull::encloses) the surface. The box tree
+    /// ([`Bvh`](crate::Bvh)) answers the same question much faster. Source: Guéziec 2000, 4.3.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Hull, Scratch};
@@ -48,7 +51,7 @@ impl Hull<'_> {
 
 /// Takes the tolerances as numbers, not a budget, so that a program with constant tolerances links
 /// no code for others.
-pub(super) fn closest_point<'a, G: Geometry<'a>>(
+pub(super) fn closest_point<'a, G: Geometry<'a> + Copy>(
     hull: &G,
     point: [f32; 3],
     [relative, absolute]: [f32; 2],
@@ -59,7 +62,7 @@ pub(super) fn closest_point<'a, G: Geometry<'a>>(
     if !hull.tables().has_hull() {
         return Err(QueryError::NO_HULL);
     }
-    let frame = hull.frame();
+    let frame = frame(hull);
     let p = frame.local(point)?;
     let mut nearest = Nearest::new(hull, p).ok_or(QueryError::Unchecked)?;
     let (mut work, mut ended) = (Work::NONE, Ended::Exact);
@@ -78,7 +81,15 @@ pub(super) fn closest_point<'a, G: Geometry<'a>>(
             }
         }
         let mut front = Front::new(hull, scratch, steps);
-        ended = search(&mut front, &mut nearest, tolerance).ok_or(QueryError::Unchecked)?;
+        let mut above = Above::NONE;
+        if tolerance.is_some() {
+            above.begin(&front.model, &mut nearest).ok_or(QueryError::Unchecked)?;
+        }
+        ended =
+            search(&mut front, &mut nearest, &mut above, tolerance).ok_or(QueryError::Unchecked)?;
+        if tolerance.is_some() {
+            above.settle(&front, &mut nearest).ok_or(QueryError::Unchecked)?;
+        }
         work = nearest.work(front.work);
     }
     nearest.settle_unreached(hull).ok_or(QueryError::Unchecked)?;
@@ -90,6 +101,7 @@ pub(super) fn closest_point<'a, G: Geometry<'a>>(
 fn search<'a, G: Geometry<'a>>(
     front: &mut Front<'_, G>,
     nearest: &mut Nearest,
+    above: &mut Above,
     tolerance: Option<[f64; 2]>,
 ) -> Option<Ended> {
     let error = front.model.surface_error();
@@ -102,8 +114,11 @@ fn search<'a, G: Geometry<'a>>(
         let key = f64::from(entry.key());
         let instance = Instance(entry.node());
         let beaten = entry.key() > nearest.limit_f32;
-        let tolerated =
-            tolerance.is_some_and(|within| nearest.is_within(within, key.min(spared), error));
+        let tolerated = tolerance.is_some_and(|within| {
+            let bound = key.min(spared);
+            above.improve(front, instance, nearest, (within, bound));
+            nearest.is_within(within, bound, error)
+        });
         if beaten || tolerated {
             if !beaten {
                 spared = spared.min(key);

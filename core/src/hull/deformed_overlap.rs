@@ -4,7 +4,7 @@
 use super::format::{Hull, VertIdx};
 use super::frame_hull::FrameHull;
 use super::geometry::Geometry;
-use super::moved_hull::{Moved, MovedHull};
+use super::moved_hull::MovedHull;
 use super::overlap::query::overlap;
 use crate::geom::{Aabb, Pose};
 use crate::query::{Budget, Decided, QueryError, ScratchEntry};
@@ -55,7 +55,8 @@ impl MovedHull<'_, '_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<[u32; 2]>, QueryError> {
-        Deformed::Moved(self.seen()?).overlap(other, pose, budget, scratch)
+        self.check()?;
+        Deformed::Moved(self).overlap(other, pose, budget, scratch)
     }
 }
 
@@ -63,7 +64,7 @@ impl MovedHull<'_, '_> {
 #[derive(Clone, Copy)]
 enum Deformed<'a, 'v> {
     Frame(FrameHull<'a>),
-    Moved(Moved<'a, 'v>),
+    Moved(&'v MovedHull<'a, 'v>),
 }
 
 impl Deformed<'_, '_> {
@@ -97,6 +98,13 @@ impl<'a> Geometry<'a> for Deformed<'a, '_> {
         match self {
             Deformed::Frame(hull) => hull.triangle(corners, number, is_surface),
             Deformed::Moved(hull) => hull.triangle(corners, number, is_surface),
+        }
+    }
+
+    fn place(&self, vertex: VertIdx) -> Option<Vec3> {
+        match self {
+            Deformed::Frame(hull) => hull.place(vertex),
+            Deformed::Moved(hull) => hull.place(vertex),
         }
     }
 

@@ -10,8 +10,10 @@ use super::closest_point;
 use super::format::{DeformableHull, Hull, Key, VertIdx};
 use super::geometry::Geometry;
 use crate::geom::{Aabb, RealVector};
-use crate::num::tolerance::{KEY_RADIUS, KEY_VERTEX, U32, VERTEX_UNDERFLOW};
-use crate::num::{Real, greater};
+use crate::num::tolerance::{
+    DEFORM_DIAMETER, KEY_RADIUS, KEY_VERTEX, LENGTH_UP, SUMMED, U32, VERTEX_UNDERFLOW,
+};
+use crate::num::{Real, greater, lesser, sqrt_up};
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
 use glam::Vec3;
 
@@ -21,13 +23,32 @@ use glam::Vec3;
 /// cover their parts of the surface, but they need not enclose it.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameHull<'a> {
-    hull: Hull<'a>,
+    model: DeformableHull<'a>,
+    frame: f32,
     /// The keys before and after; `None` for the hull at rest.
     keys: [Option<Key<'a>>; 2],
     /// 0 ≤ this < 1.
     between: f32,
     vertex_box: Aabb,
     surface_error: f64,
+    /// The part of the surface error that comes from the interpolation.
+    rounding: f64,
+    pace: Pace,
+}
+
+/// How far a vertex of the surface moves at most from one key to the next, local frame.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    /// The earlier key. `u32::MAX`: nothing is known.
+    before: u32,
+    motion: f64,
+}
+
+/// Keys, from one to the next, over which a motion is followed.
+const FOLLOWED: u32 = 2;
+
+impl Pace {
+    const UNKNOWN: Pace = Pace { before: u32::MAX, motion: f64::INFINITY };
 }
 
 impl<'a> DeformableHull<'a> {
@@ -58,11 +79,9 @@ impl<'a> DeformableHull<'a> {
         let before = frame as u32;
         let between = frame - before as f32;
         let after = if between > 0.0 { before.saturating_add(1) } else { before };
-        let find = |frame: u32| match frame {
-            0 => Ok(None),
-            _ => self.key(frame).map(Some).ok_or(QueryError::Unchecked),
-        };
-        let keys = [find(before)?, find(after)?];
+        let keys = [self.key_or_rest(before), self.key_or_rest(after)];
+        let [Some(first), Some(second)] = keys else { return Err(QueryError::Unchecked) };
+        let keys = [first, second];
         let hull = self.rest();
         let rest = f64::from(hull.header().surface_error);
         let [first, second] = keys.map(|key| match key {
@@ -78,11 +97,60 @@ impl<'a> DeformableHull<'a> {
         } else {
             0.0
         };
-        Ok(FrameHull { hull, keys, between, vertex_box, surface_error: error + rounding })
+        let surface_error = error + rounding;
+        let (model, pace) = (*self, Pace::UNKNOWN);
+        Ok(FrameHull { model, frame, keys, between, vertex_box, surface_error, rounding, pace })
+    }
+
+    /// A key frame; `None` inside for the hull at rest.
+    fn key_or_rest(&self, frame: u32) -> Option<Option<Key<'a>>> {
+        if frame == 0 { Some(None) } else { self.key(frame).map(Some) }
     }
 }
 
-impl FrameHull<'_> {
+impl<'a> FrameHull<'a> {
+    /// The same mesh at another frame, and how far a vertex of the surface moves at most on the
+    /// way there, local frame; infinite over more than two keys.
+    ///
+    /// Cost: constant between two keys whose pace this hull knows, else one pass over the vertices.
+    pub(super) fn followed(&self, frame: f32) -> Result<(FrameHull<'a>, f64), QueryError> {
+        let mut there = self.model.at_frame(frame)?;
+        there.pace = self.pace;
+        let (from, to) = (lesser(self.frame, frame), greater(self.frame, frame));
+        let first = from as u32;
+        // The bounds of before may be too high by the rounding of then.
+        let mut motion = (self.rounding - there.rounding).max(0.0);
+        for key in first..first.saturating_add(FOLLOWED) {
+            let start = greater(from, key as f32);
+            let end = lesser(to, key.saturating_add(1) as f32);
+            if start < end {
+                if there.pace.before != key {
+                    there.pace = self.pace_after(key).ok_or(QueryError::Unchecked)?;
+                }
+                motion += (f64::from(end) - f64::from(start)) * there.pace.motion;
+            }
+        }
+        let is_near = to <= first.saturating_add(FOLLOWED) as f32;
+        Ok((there, if is_near { motion * SUMMED } else { f64::INFINITY }))
+    }
+
+    /// One pass over the vertices of the surface.
+    fn pace_after(&self, before: u32) -> Option<Pace> {
+        let hull = self.model.tables();
+        let [from, to] =
+            [self.model.key_or_rest(before)?, self.model.key_or_rest(before.checked_add(1)?)?];
+        let mut most = Real(0.0);
+        for vertex in (0..hull.header().vertices).map(VertIdx) {
+            if hull.split_of(vertex).is_none() {
+                let [from, to] = [at_key(hull, &from, vertex)?, at_key(hull, &to, vertex)?];
+                let way = RealVector::from(to) - RealVector::from(from);
+                most = greater(most, way.dot(way));
+            }
+        }
+        let [motion] = sqrt_up([most.0]).map(|length| Real(length) * Real(LENGTH_UP));
+        Some(Pace { before, motion: f64::from(motion.0) })
+    }
+
     /// Closest point of the surface at this frame to `point` (input units), with an interval that
     /// contains the distance to the mesh whose vertices are interpolated from those of the input
     /// files, in real arithmetic.
@@ -107,23 +175,20 @@ impl FrameHull<'_> {
 
     #[inline(always)]
     fn position(&self, vertex: VertIdx) -> Option<Vec3> {
-        let at = |key: &Option<Key<'_>>| match key {
-            None => self.hull.position(vertex),
-            Some(key) => key.position(vertex),
-        };
+        let hull = self.model.tables();
         let [before, after] = &self.keys;
-        let from = at(before)?;
+        let from = at_key(hull, before, vertex)?;
         if self.between == 0.0 {
             return Some(from);
         }
-        let [from, to] = [from, at(after)?].map(RealVector::from);
+        let [from, to] = [from, at_key(hull, after, vertex)?].map(RealVector::from);
         Some((from + (to - from) * Real(self.between)).into())
     }
 
     #[inline(always)]
     fn radius(&self, number: u32) -> Option<f32> {
         let at = |key: &Option<Key<'_>>| match key {
-            None => self.hull.radius(number),
+            None => self.model.tables().radius(number),
             Some(key) => key.radius(number),
         };
         let [before, after] = &self.keys;
@@ -143,9 +208,18 @@ impl FrameHull<'_> {
     }
 }
 
+/// A vertex at a key, or at rest.
+#[inline(always)]
+fn at_key(hull: &Hull<'_>, key: &Option<Key<'_>>, vertex: VertIdx) -> Option<Vec3> {
+    match key {
+        None => hull.position(vertex),
+        Some(key) => key.position(vertex),
+    }
+}
+
 impl<'a> Geometry<'a> for FrameHull<'a> {
     fn tables(&self) -> &Hull<'a> {
-        &self.hull
+        self.model.tables()
     }
 
     fn triangle(
@@ -158,10 +232,14 @@ impl<'a> Geometry<'a> for FrameHull<'a> {
         Some((corners, if is_surface { 0.0 } else { self.radius(number)? }))
     }
 
-    /// The swept triangle of a group is not known in other frames: its bound is 0.
+    fn place(&self, vertex: VertIdx) -> Option<Vec3> {
+        self.position(vertex)
+    }
+
+    /// The swept triangle of a group is not known in other frames: it holds the whole model.
     fn group(&self, index: u32) -> Option<([Vec3; 3], f32)> {
-        let ([a, b, c], _) = self.hull.base_group(index)?;
-        Some(([self.position(a)?, self.position(b)?, self.position(c)?], f32::INFINITY))
+        let ([a, b, c], _) = self.tables().base_group(index)?;
+        Some(([self.position(a)?, self.position(b)?, self.position(c)?], DEFORM_DIAMETER))
     }
 
     fn vertex_box(&self) -> Aabb {

@@ -138,7 +138,10 @@ pub(crate) struct Front<'m, G> {
 impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
     /// An empty front that may replace `steps` triangles, at most as many as the tables hold. So a
     /// search ends even if checked tables name a triangle twice.
-    pub(crate) fn new(model: &G, scratch: &'m mut [ScratchEntry], steps: u32) -> Self {
+    pub(crate) fn new(model: &G, scratch: &'m mut [ScratchEntry], steps: u32) -> Self
+    where
+        G: Copy,
+    {
         Front {
             steps: steps.min(triangles(model.tables())),
             model: *model,
@@ -167,11 +170,11 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
     }
 
     /// A front whose queue never goes depth first, and that may replace no triangle yet.
-    pub(crate) fn best_first(model: &G, scratch: &'m mut [ScratchEntry]) -> Self {
+    pub(crate) fn best_first(model: G, scratch: &'m mut [ScratchEntry]) -> Self {
         Front {
             queue: SweepQueue::best_first(scratch),
             work: Work::NONE,
-            model: *model,
+            model,
             steps: 0,
             batch: Batch::EMPTY,
         }

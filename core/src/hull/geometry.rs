@@ -3,11 +3,13 @@
 
 use crate::geom::Aabb;
 use crate::hull::format::{Hull, VertIdx};
-use crate::query::Frame;
+use crate::query::{Frame, QueryError};
 use glam::Vec3;
 
-/// The geometry that a sweep reads. Lengths are in the local frame.
-pub(crate) trait Geometry<'a>: Copy {
+/// The geometry that a sweep reads: [`Hull`], [`FrameHull`](crate::FrameHull) or
+/// [`MovedHull`](crate::MovedHull). Lengths are in the local frame. Its functions may change in any
+/// release.
+pub trait Geometry<'a> {
     /// The split tables.
     fn tables(&self) -> &Hull<'a>;
 
@@ -20,6 +22,9 @@ pub(crate) trait Geometry<'a>: Copy {
         number: u32,
         is_surface: bool,
     ) -> Option<([Vec3; 3], f32)>;
+
+    /// Where a vertex of any level lies.
+    fn place(&self, vertex: VertIdx) -> Option<Vec3>;
 
     /// Corners and radius of a swept triangle around a group of base triangles.
     fn group(&self, index: u32) -> Option<([Vec3; 3], f32)>;
@@ -36,9 +41,60 @@ pub(crate) trait Geometry<'a>: Copy {
     /// reverse; and no radius is too small by more than this.
     fn surface_error(&self) -> f64;
 
-    /// Conversion of units, with the surface error.
-    fn frame(&self) -> Frame {
-        Frame::of(self.tables().header()).with_surface_error(self.surface_error())
+    /// Whether there is anything to ask about.
+    ///
+    /// # Errors
+    /// [`QueryError::NoPose`].
+    fn check(&self) -> Result<(), QueryError> {
+        Ok(())
+    }
+}
+
+/// Conversion of units, with the surface error.
+pub(super) fn frame<'a>(geometry: &impl Geometry<'a>) -> Frame {
+    Frame::of(geometry.tables().header()).with_surface_error(geometry.surface_error())
+}
+
+impl<'a, G: Geometry<'a>> Geometry<'a> for &G {
+    #[inline(always)]
+    fn tables(&self) -> &Hull<'a> {
+        (**self).tables()
+    }
+
+    #[inline(always)]
+    fn triangle(
+        &self,
+        corners: [VertIdx; 3],
+        number: u32,
+        is_surface: bool,
+    ) -> Option<([Vec3; 3], f32)> {
+        (**self).triangle(corners, number, is_surface)
+    }
+
+    #[inline(always)]
+    fn place(&self, vertex: VertIdx) -> Option<Vec3> {
+        (**self).place(vertex)
+    }
+
+    #[inline(always)]
+    fn group(&self, index: u32) -> Option<([Vec3; 3], f32)> {
+        (**self).group(index)
+    }
+
+    fn vertex_box(&self) -> Aabb {
+        (**self).vertex_box()
+    }
+
+    fn surface_box(&self) -> Aabb {
+        (**self).surface_box()
+    }
+
+    fn surface_error(&self) -> f64 {
+        (**self).surface_error()
+    }
+
+    fn check(&self) -> Result<(), QueryError> {
+        (**self).check()
     }
 }
 
@@ -56,6 +112,11 @@ impl<'a> Geometry<'a> for Hull<'a> {
         _is_surface: bool,
     ) -> Option<([Vec3; 3], f32)> {
         Some((self.positions(corners)?, self.radius(number)?))
+    }
+
+    #[inline(always)]
+    fn place(&self, vertex: VertIdx) -> Option<Vec3> {
+        self.position(vertex)
     }
 
     #[inline(always)]

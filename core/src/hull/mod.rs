@@ -11,17 +11,21 @@
 //! | `geometry` | where a sweep's triangles lie: at rest, at a key frame, or moved |
 //! | `front` | the front of the sweeping process: triangles that stand for the surface |
 //! | `closest_point` | closest point by a sweep |
+//! | `above` | a bound from above, before a triangle of the surface is reached |
 //! | `nearest` | the nearest triangle so far, and the bounds of the distance |
 //! | `shared_corner` | a corner that is the closest point of many triangles, on boards |
 //! | `kept_sweep/` | a sweep that is interrupted, moved, or gives triangle after triangle |
 //! | `frame_hull` | the hull between two key frames |
+//! | `deformed_hits` | segments against a hull that deforms |
 //! | `deformed_overlap` | whether a hull that deforms meets one at rest |
 //! | `moved_hull` | the hull under any motion of the mesh's vertices |
 //! | `segment_hits` | first hit and all hits by a sweep |
 //! | `overlap/` | a triangle, or another hull hierarchy, against the surface |
 //! | `outer_hits` | hits from outside on the refined hull |
 
+mod above;
 mod closest_point;
+mod deformed_hits;
 mod deformed_overlap;
 mod focus;
 pub mod format;
@@ -43,6 +47,7 @@ mod split_set;
 pub use focus::Focus;
 pub use format::{DeformableHull, Hull, HullLevel};
 pub use frame_hull::FrameHull;
+pub use geometry::Geometry;
 pub use hull_faces::HullFace;
 pub use kept_sweep::Sweep;
 pub use moved_hull::{MovedHull, MovedVertex};

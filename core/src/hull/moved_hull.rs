@@ -16,8 +16,10 @@ use super::closest_point;
 use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};
 use super::geometry::Geometry;
 use crate::geom::{Aabb, RealVector};
-use crate::num::tolerance::{DEFORM_DOMAIN, DISPLACEMENT, LENGTH_UP, U32, VERTEX_UNDERFLOW};
-use crate::num::{Radius16, Real, exp2, greater, lesser, sqrt_up};
+use crate::num::tolerance::{
+    DEFORM_DIAMETER, DEFORM_DOMAIN, DISPLACEMENT, LENGTH_UP, U32, VERTEX_UNDERFLOW,
+};
+use crate::num::{Radius16, Real, exp2, greater, lesser, sqrt_up, up_to_f32};
 use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry};
 use glam::Vec3;
 
@@ -58,6 +60,8 @@ pub struct MovedHull<'a, 'v> {
     vertex_box: Aabb,
     surface_error: f64,
     has_pose: bool,
+    /// Motion of the surface since the radii were computed, local frame. Every radius grows by it.
+    used: f32,
 }
 
 impl<'a> DeformableHull<'a> {
@@ -91,8 +95,9 @@ impl<'a> DeformableHull<'a> {
         };
         let vertex_box = self.rest().hull_box();
         let surface_error = f64::from(self.rest().header().surface_error);
+        let (has_pose, used) = (false, 0.0);
         let mut moved =
-            MovedHull { model: *self, vertices, vertex_box, surface_error, has_pose: false };
+            MovedHull { model: *self, vertices, vertex_box, surface_error, has_pose, used };
         moved.reset()?;
         Ok(moved)
     }
@@ -111,13 +116,93 @@ impl MovedHull<'_, '_> {
     /// # Errors
     /// [`QueryError::VertexOutOfDomain`]. Questions then answer [`QueryError::NoPose`] until the
     /// next update.
-    pub fn update(&mut self, mut place: impl FnMut(u32) -> [f32; 3]) -> Result<(), QueryError> {
+    pub fn update(&mut self, place: impl FnMut(u32) -> [f32; 3]) -> Result<(), QueryError> {
+        self.place::<false>(place)?;
+        self.settle().ok_or(QueryError::Unchecked)
+    }
+
+    /// The same as [`update`](Self::update), but the bounds of coarse levels stay as they are until
+    /// the vertices have moved by more than `slack` (input units) since these bounds were computed.
+    ///
+    /// Meanwhile each bound grows by the motion so far: the sum, over the updates, of the largest
+    /// displacement of a vertex. So a complete answer is as narrow as after
+    /// [`update`](Self::update), and takes more steps. An answer that ends early is wider by the
+    /// motion. A slack of 0 is used up by any motion.
+    ///
+    /// Cost: one pass over the vertices of the mesh. When the slack is used up, that of
+    /// [`update`](Self::update). Source: Guéziec 2000, 5.3, volumes for a few steps.
+    ///
+    /// ```
+    /// use meshsweep_core::{Budget, DeformableHull, MovedVertex, Scratch};
+    /// let bytes = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/bend.msw"));
+    /// let part = DeformableHull::open(bytes)?;
+    /// let (mut memory, mut scratch) = ([MovedVertex::EMPTY; 512], Scratch::<256>::new());
+    /// let mut moved = part.moved(&mut memory)?;
+    /// moved.update(|_| [0.0, 0.0, 1.0])?;
+    /// moved.update_within(0.5, |_| [0.0, 0.0, 1.25])?;
+    /// assert!(moved.motion() >= 0.25 && moved.motion() < 0.3);
+    /// let near = moved.closest_point([0.0, 0.0, 9.25], Budget::EXACT, &mut scratch)?;
+    /// assert!(near.distance.lower <= 8.0 && near.distance.upper >= 8.0);
+    /// moved.update_within(0.5, |_| [0.0, 0.0, 1.75])?;
+    /// assert_eq!(moved.motion(), 0.0, "the slack was used up");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`update`](Self::update); [`QueryError::Tolerance`] of a slack that is negative or
+    /// not finite, which changes nothing.
+    pub fn update_within(
+        &mut self,
+        slack: f32,
+        place: impl FnMut(u32) -> [f32; 3],
+    ) -> Result<(), QueryError> {
+        self.follow(slack, place).map(|_| ())
+    }
+
+    /// Motion of the vertices that the bounds of coarse levels allow for, input units, rounded up:
+    /// 0 after [`update`](Self::update).
+    pub fn motion(&self) -> f32 {
+        up_to_f32(f64::from(self.used) * self.model.tables().scale())
+    }
+
+    /// [`update_within`](Self::update_within), and how far a vertex moved at most, local frame;
+    /// infinite if that is not known.
+    pub(super) fn follow(
+        &mut self,
+        slack: f32,
+        place: impl FnMut(u32) -> [f32; 3],
+    ) -> Result<f64, QueryError> {
+        if !(slack >= 0.0 && slack.is_finite()) {
+            return Err(QueryError::Tolerance);
+        }
+        let slack = f64::from(slack) * exp2(-self.model.tables().header().scale_exponent);
+        let (had_pose, before) = (self.has_pose, self.vertex_box);
+        let motion = self.place::<true>(place)?;
+        let used = (Real(self.used) + motion) * Real(LENGTH_UP);
+        if had_pose && f64::from(used.0) <= slack {
+            self.used = used.0;
+            let (low, high) = grown([before.min, before.max], self.vertex_box.min);
+            let (min, max) = grown([low, high], self.vertex_box.max);
+            self.vertex_box = Aabb { min, max };
+            self.has_pose = true;
+        } else {
+            self.settle().ok_or(QueryError::Unchecked)?;
+        }
+        Ok(if had_pose { f64::from(motion.0) } else { f64::INFINITY })
+    }
+
+    /// Puts the vertices of the mesh where they are now. With `MEASURES` it returns an upper bound
+    /// of the largest displacement since the last time, local frame. The box is that of the mesh.
+    fn place<const MEASURES: bool>(
+        &mut self,
+        mut place: impl FnMut(u32) -> [f32; 3],
+    ) -> Result<Real, QueryError> {
         self.has_pose = false;
         let model = self.model;
         let hull = model.rest();
         let inverse = exp2(-hull.header().scale_exponent);
         let short = inverse as f32;
-        let mut rank = 0;
+        let (mut rank, mut is_exact, mut most) = (0, true, Real(0.0));
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for (index, record) in (0..).zip(self.vertices.iter_mut()) {
             if hull.split_of(VertIdx(index)).is_some() {
@@ -126,22 +211,33 @@ impl MovedHull<'_, '_> {
             let vertex = model.number(rank).ok_or(QueryError::Unchecked)?;
             rank += 1;
             // Exact, but for underflow. In f64 it has the same bits.
-            let position = place(vertex).map(|x| {
+            let given = place(vertex);
+            let position = given.map(|x| {
                 if short.is_normal() {
                     (Real(x) * Real(short)).0
                 } else {
                     (f64::from(x) * inverse) as f32
                 }
             });
-            if !position.iter().all(|x| x.abs() < DEFORM_DOMAIN) {
-                return Err(QueryError::VertexOutOfDomain { vertex });
+            if !position.iter().all(|x| is_usual(*x)) {
+                if !position.iter().all(|x| x.abs() < DEFORM_DOMAIN) {
+                    return Err(QueryError::VertexOutOfDomain { vertex });
+                }
+                let mut both = given.iter().zip(&position);
+                is_exact &= both.all(|(given, x)| *given == 0.0 || is_usual(*x));
             }
-            *record = MovedVertex { position, spread: 0, farthest: 0 };
+            let placed = MovedVertex { position, spread: 0, farthest: 0 };
+            if MEASURES {
+                let way = RealVector::from(placed.position()) - record.position().into();
+                most = greater(most, way.dot(way));
+            }
+            *record = placed;
             (low, high) = grown([low, high], record.position());
         }
-        self.surface_error = VERTEX_UNDERFLOW;
+        self.surface_error = if is_exact { 0.0 } else { VERTEX_UNDERFLOW };
         self.vertex_box = Aabb { min: low, max: high };
-        self.settle().ok_or(QueryError::Unchecked)
+        let [motion] = if MEASURES { sqrt_up([most.0]) } else { [0.0] };
+        Ok(Real(motion) * Real(LENGTH_UP))
     }
 
     /// Moves the mesh back to where it was built.
@@ -191,7 +287,7 @@ impl MovedHull<'_, '_> {
             *record = MovedVertex { position: Vec3::from(position).to_array(), spread, farthest };
         }
         self.vertex_box = Aabb { min: low, max: high };
-        self.has_pose = true;
+        (self.has_pose, self.used) = (true, 0.0);
         Some(())
     }
 
@@ -219,20 +315,17 @@ impl MovedHull<'_, '_> {
     ) -> Result<ClosestPoint, QueryError> {
         budget.check_with(scratch)?;
         let Budget { relative, absolute, steps } = budget;
-        closest_point::closest_point(&self.seen()?, point, [relative, absolute], steps, scratch)
+        self.check()?;
+        closest_point::closest_point(&self, point, [relative, absolute], steps, scratch)
     }
+}
 
-    pub(super) fn seen(&self) -> Result<Moved<'_, '_>, QueryError> {
-        if !self.has_pose {
-            return Err(QueryError::NoPose);
-        }
-        Ok(Moved {
-            hull: self.model.rest(),
-            vertices: self.vertices,
-            vertex_box: self.vertex_box,
-            surface_error: self.surface_error,
-        })
-    }
+/// Whether a coordinate is below the domain, and a normal number, so that it lost no digits.
+#[inline(always)]
+fn is_usual(x: f32) -> bool {
+    const LEAST: u32 = f32::MIN_POSITIVE.to_bits() << 1;
+    const DOMAIN: u32 = DEFORM_DOMAIN.to_bits() << 1;
+    (x.to_bits() << 1).wrapping_sub(LEAST) < DOMAIN - LEAST
 }
 
 /// The fraction of the way between two displacements at which the spread is least: the centre of
@@ -263,26 +356,31 @@ fn grown([low, high]: [Vec3; 2], point: Vec3) -> (Vec3, Vec3) {
     (each(lesser, low), each(greater, high))
 }
 
-/// A moved hull as a question sees it.
-#[derive(Clone, Copy)]
-pub(super) struct Moved<'a, 'v> {
-    hull: Hull<'a>,
-    vertices: &'v [MovedVertex],
-    vertex_box: Aabb,
-    surface_error: f64,
-}
-
-impl Moved<'_, '_> {
+impl MovedHull<'_, '_> {
     #[inline(always)]
     fn records(&self, [a, b, c]: [VertIdx; 3]) -> Option<[MovedVertex; 3]> {
         let at = |vertex: VertIdx| self.vertices.get(vertex.usize()).copied();
         Some([at(a)?, at(b)?, at(c)?])
     }
+
+    /// A radius of the last settlement, grown by the motion since then.
+    #[inline(always)]
+    fn widened(&self, radius: Real) -> f32 {
+        if self.used == 0.0 {
+            return radius.0;
+        }
+        ((radius + Real(self.used)) * Real(LENGTH_UP)).0
+    }
 }
 
-impl<'a> Geometry<'a> for Moved<'a, '_> {
+impl<'a> Geometry<'a> for MovedHull<'a, '_> {
+    #[inline(always)]
     fn tables(&self) -> &Hull<'a> {
-        &self.hull
+        self.model.tables()
+    }
+
+    fn check(&self) -> Result<(), QueryError> {
+        if self.has_pose { Ok(()) } else { Err(QueryError::NoPose) }
     }
 
     fn triangle(
@@ -299,25 +397,29 @@ impl<'a> Geometry<'a> for Moved<'a, '_> {
         let [r, s, t] = records.map(|record| Real(record.farthest()));
         let farthest = greater(r, greater(s, t));
         let [r, s, t] = records.map(|record| Real(record.spread()));
-        let spread = Real(self.hull.radius(number)?) + greater(r, greater(s, t));
+        let spread = Real(self.tables().radius(number)?) + greater(r, greater(s, t));
         if spread >= farthest {
-            return Some((at, farthest.0));
+            return Some((at, self.widened(farthest)));
         }
         let [a, b, c] = at.map(RealVector::from);
-        let [rest_a, rest_b, rest_c] = self.hull.positions(corners)?.map(RealVector::from);
+        let [rest_a, rest_b, rest_c] = self.tables().positions(corners)?.map(RealVector::from);
         let (ab, bc, ca) = (b - a, c - b, a - c);
         let greatest =
             |[ab, bc, ca]: [RealVector; 3]| greater(ab.dot(ab), greater(bc.dot(bc), ca.dot(ca))).0;
         let off = [ab - (rest_b - rest_a), bc - (rest_c - rest_b), ca - (rest_a - rest_c)];
         let [off, vector] = sqrt_up([greatest(off), greatest([ab, bc, ca])]).map(Real);
         let grown = (spread + off + rounding(vector)) * Real(LENGTH_UP);
-        Some((at, lesser(farthest, grown).0))
+        Some((at, self.widened(lesser(farthest, grown))))
     }
 
-    /// The swept triangle of a group is not known after a motion: its bound is 0.
+    fn place(&self, vertex: VertIdx) -> Option<Vec3> {
+        Some(self.record(vertex)?.position())
+    }
+
+    /// The swept triangle of a group is not known after a motion: it holds the whole model.
     fn group(&self, index: u32) -> Option<([Vec3; 3], f32)> {
-        let (corners, _) = self.hull.base_group(index)?;
-        Some((self.records(corners)?.map(|record| record.position()), f32::INFINITY))
+        let (corners, _) = self.tables().base_group(index)?;
+        Some((self.records(corners)?.map(|record| record.position()), DEFORM_DIAMETER))
     }
 
     fn vertex_box(&self) -> Aabb {

@@ -232,6 +232,17 @@ impl Nearest {
         self.upper
     }
 
+    /// A point of the surface is this near.
+    pub(super) fn lower_upper(&mut self, upper: f64) {
+        self.upper = upper;
+        self.set_limit(upper);
+    }
+
+    /// The query point, local frame.
+    pub(super) fn point(&self) -> DVec3 {
+        self.p
+    }
+
     /// The nearest triangle so far.
     pub(super) fn instance(&self) -> Option<Instance> {
         self.best.map(|best| best.instance)
@@ -249,14 +260,21 @@ impl Nearest {
 
     /// Whether the interval meets a tolerance, relative or absolute, if nothing is nearer than
     /// `bound`: as it is reported, with the stored surface's error, and rounded to f32 outward.
-    pub(super) fn is_within(
+    pub(super) fn is_within(&self, within: [f64; 2], bound: f64, surface_error: f64) -> bool {
+        self.is_within_from(self.upper, within, bound, surface_error)
+    }
+
+    /// The same with another upper bound.
+    #[inline]
+    pub(super) fn is_within_from(
         &self,
+        upper: f64,
         [relative, absolute]: [f64; 2],
         bound: f64,
         surface_error: f64,
     ) -> bool {
         let low = (bound.min(self.lower) - surface_error) * (1.0 - REPORTED);
-        let high = (self.upper + surface_error) * (1.0 + REPORTED);
+        let high = (upper + surface_error) * (1.0 + REPORTED);
         high <= low * (1.0 + relative) || high - low <= absolute
     }
 

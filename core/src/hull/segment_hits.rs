@@ -5,7 +5,8 @@
 //! Theoharis 2003, Figure 5) are found, wherever the segment starts.
 
 use super::front::{Candidate, Front, Refinable, Visit};
-use crate::geom::{Aabb, Clipped, SegmentTriangle, SweptSegment, comes_within, segment_triangle};
+use super::geometry::{Geometry, frame};
+use crate::geom::{Clipped, SegmentTriangle, SweptSegment, comes_within, segment_triangle};
 use crate::hull::format::{Hull, Instance};
 use crate::num::{SOFT_DOUBLE, down_to_f32, up_to_f32};
 use crate::query::{
@@ -48,23 +49,7 @@ impl Hull<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
-        let mut first = First { best: None, least_lower: f64::INFINITY };
-        let traced = trace(self, [a, b], &budget, scratch, &mut first)?;
-        let open = f64::from(traced.unopened);
-        let hit = first.best.map(|best| Hit {
-            t: best.meet.t as f32,
-            point: best.point,
-            triangle: self.number(best.instance),
-        });
-        let lower = first.least_lower.min(open);
-        let lower = if lower.is_finite() { down_to_f32(lower.max(0.0)) } else { f32::INFINITY };
-        let upper = first.best.map_or(f32::INFINITY, |Met { meet, .. }| {
-            if meet.is_certain { up_to_f32(meet.t_upper) } else { 1.0 }
-        });
-        let t = Interval { lower, upper };
-        let is_touch = first.best.is_some_and(|best| !best.meet.is_certain);
-        let ended = if is_touch { traced.ended.uncertain() } else { traced.ended };
-        Ok(FirstHit { t, hit, work: traced.work, ended })
+        first_hit(self, [a, b], &budget, scratch)
     }
 
     /// All common points of the closed segment `a b` (input units) and the surface, by rising
@@ -98,11 +83,48 @@ impl Hull<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<AllHits, QueryError> {
-        let mut all = All { model: self, hits: Hits::new(hits), has_touches: false };
-        let traced = trace(self, [a, b], &budget, scratch, &mut all)?;
-        let ended = if all.has_touches { traced.ended.uncertain() } else { traced.ended };
-        Ok(all.hits.answer(traced.work, ended, false))
+        all_hits(self, [a, b], hits, &budget, scratch)
     }
+}
+
+/// [`Hull::first_hit`], of a hull at rest or deformed.
+pub(super) fn first_hit<'a>(
+    model: &(impl Geometry<'a> + Copy),
+    ends: [[f32; 3]; 2],
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<FirstHit, QueryError> {
+    let mut first = First { best: None, least_lower: f64::INFINITY };
+    let traced = trace(model, ends, budget, scratch, &mut first)?;
+    let open = f64::from(traced.unopened);
+    let hit = first.best.map(|best| Hit {
+        t: best.meet.t as f32,
+        point: best.point,
+        triangle: model.tables().number(best.instance),
+    });
+    let lower = first.least_lower.min(open);
+    let lower = if lower.is_finite() { down_to_f32(lower.max(0.0)) } else { f32::INFINITY };
+    let upper = first.best.map_or(f32::INFINITY, |Met { meet, .. }| {
+        if meet.is_certain { up_to_f32(meet.t_upper) } else { 1.0 }
+    });
+    let t = Interval { lower, upper };
+    let is_touch = first.best.is_some_and(|best| !best.meet.is_certain);
+    let ended = if is_touch { traced.ended.uncertain() } else { traced.ended };
+    Ok(FirstHit { t, hit, work: traced.work, ended })
+}
+
+/// [`Hull::all_hits`], of a hull at rest or deformed.
+pub(super) fn all_hits<'a>(
+    model: &(impl Geometry<'a> + Copy),
+    ends: [[f32; 3]; 2],
+    hits: &mut [TriangleHit],
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<AllHits, QueryError> {
+    let mut all = All { model: model.tables(), hits: Hits::new(hits), has_touches: false };
+    let traced = trace(model, ends, budget, scratch, &mut all)?;
+    let ended = if all.has_touches { traced.ended.uncertain() } else { traced.ended };
+    Ok(all.hits.answer(traced.work, ended, false))
 }
 
 /// A triangle that the segment meets.
@@ -137,14 +159,14 @@ impl Collect for First {
     }
 }
 
-struct All<'a> {
-    model: &'a Hull<'a>,
-    hits: Hits<'a, TriangleHit>,
+struct All<'a, 'h> {
+    model: &'h Hull<'a>,
+    hits: Hits<'h, TriangleHit>,
     /// Some hits are not proved.
     has_touches: bool,
 }
 
-impl Collect for All<'_> {
+impl Collect for All<'_, '_> {
     fn add(&mut self, met: Met) -> f32 {
         let triangle = self.model.number(met.instance);
         let hit = Hit { t: met.meet.t as f32, point: met.point, triangle };
@@ -163,20 +185,20 @@ struct Traced {
 }
 
 #[cfg_attr(not(meshsweep_wide), inline(never))]
-fn trace<C: Collect>(
-    model: &Hull<'_>,
+fn trace<'a, G: Geometry<'a> + Copy, C: Collect>(
+    model: &G,
     [a, b]: [[f32; 3]; 2],
     budget: &Budget,
     scratch: &mut [ScratchEntry],
     collect: &mut C,
 ) -> Result<Traced, QueryError> {
     budget.check_with(scratch)?;
-    if !model.has_hull() {
+    if !model.tables().has_hull() {
         return Err(QueryError::NO_HULL);
     }
-    let frame = Frame::of(model.header());
-    let surface_error = model.header().surface_error;
-    let mut bounds = Aabb::of(model.header().surface_box);
+    let frame = frame(model);
+    let surface_error = up_to_f32(model.surface_error());
+    let mut bounds = model.surface_box();
     if surface_error > 0.0 {
         bounds.min = (bounds.min - surface_error).map(f32::next_down);
         bounds.max = (bounds.max + surface_error).map(f32::next_up);
@@ -188,7 +210,7 @@ fn trace<C: Collect>(
     }
     let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
     let Some(clipped) = bounds.clip(start, end) else { return Ok(missed) };
-    let mut hull = model.hull_box();
+    let mut hull = model.vertex_box();
     hull.min = hull.min.min(bounds.min);
     hull.max = hull.max.max(bounds.max);
     let mut along = Along {
@@ -210,8 +232,8 @@ fn trace<C: Collect>(
 }
 
 /// Why the search ended, and the least parameter of a hit in triangles that it did not refine.
-fn run<C: Collect>(
-    front: &mut Front<'_, Hull<'_>>,
+fn run<'a, G: Geometry<'a>, C: Collect>(
+    front: &mut Front<'_, G>,
     along: &mut Along<'_, C>,
 ) -> Option<(Ended, f32)> {
     front.begin(along)?;

@@ -166,6 +166,10 @@ pub const HULL_FAR: f64 = (1u64 << 40) as f64;
 /// answer depends on it.
 pub const SWEEP_KEPT: f64 = 1.0 / 32.0;
 
+/// Least part of the hulls' size that is kept where the queue overflows: [`SWEEP_KEPT`] after six
+/// overflows. No answer depends on it.
+pub const SWEEP_LEAST: f64 = SWEEP_KEPT / 4096.0;
+
 /// Motion in the local frame after which a sweep begins anew. Keys in f32 hold a bound plus the
 /// motion: with a larger value they lose digits, and triangles are bounded in vain. No guarantee
 /// rests on it.
@@ -179,6 +183,16 @@ pub const F32_EXTENT: f64 = 1.0 / 4096.0;
 /// A sum of motions is rounded up by this factor: less than four roundings of f64 each.
 pub const SUMMED: f64 = 1.0 + 1.0 / (1u64 << 48) as f64;
 
+/// Distance from the middle of the hulls, in units of the radius of their ball, from which on a
+/// sweep tells a turn of its point from other motions. Nearer, the point's way is hardly longer. No
+/// guarantee rests on it.
+pub const TURNS_FROM: f32 = 1.25;
+
+/// Rounding of the motion that a sweep is charged for a turn, in units of [`U64`] times the radius
+/// of the ball and the distances from its centre. Proved: 5 roundings for each direction and for
+/// their chord, 4 for each length, less than 24 in all. A smaller value loses the guarantee.
+pub const TURNED: f64 = 64.0;
+
 /// Rounding to f32 and the change of units, at either end of the interval.
 pub const REPORTED: f64 = 8.0 * U32 as f64;
 
@@ -190,6 +204,9 @@ pub const DEFORM_DOMAIN: f32 = 64.0;
 
 /// Largest coordinate of a vertex of any level of a moved hull. Proved: 97 (§17).
 pub const DEFORM_COARSE: f32 = 128.0;
+
+/// No two points of a hull that deforms are farther apart: 2·√3 times [`DEFORM_COARSE`] is 444.
+pub const DEFORM_DIAMETER: f32 = 512.0;
 
 /// Rounding of a difference of displacements, in units of [`U32`] times the moved distance of the
 /// two vertices. Proved: 2 (§17). A smaller value loses the guarantee.

@@ -125,6 +125,11 @@ impl<'a> SweepQueue<'a> {
         self.dropped
     }
 
+    /// Whether a quarter of the slots hold entries.
+    pub(crate) fn is_quarter_full(&self) -> bool {
+        (self.heap + self.stack).saturating_mul(4) > self.slots.len()
+    }
+
     /// Forgets everything.
     pub(crate) fn clear(&mut self) {
         (self.heap, self.stack, self.dropped) = (0, 0, f32::INFINITY);

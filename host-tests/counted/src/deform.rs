@@ -6,8 +6,13 @@ use meshsweep_core::{Budget, DeformableHull, MovedVertex, QueryError, ScratchEnt
 
 use crate::Counted;
 
-/// Updates a moved hull so many times, or asks it after one update. The mesh is sheared by half of
-/// its size.
+/// A slack that no motion uses up.
+const SLACK: f32 = 1e30;
+/// Shear from one frame to the next.
+const STEP: f32 = 1e-4;
+
+/// Updates a moved hull so many times, or asks it after one update; or follows it with a sweep. The
+/// mesh is sheared by half of its size.
 pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<(), String> {
     let refused = |error: QueryError| error.to_string();
     let hull = DeformableHull::open(counted.blob).map_err(|error| error.to_string())?;
@@ -28,6 +33,25 @@ pub fn ask(counted: &Counted<'_>, question: &str, queries: usize) -> Result<(), 
         "update" => {
             for _ in 0..queries {
                 moved.update(|vertex| places[vertex as usize]).map_err(refused)?;
+            }
+        }
+        "within" => {
+            for _ in 0..queries {
+                moved.update_within(SLACK, |vertex| places[vertex as usize]).map_err(refused)?;
+            }
+        }
+        "kept" => {
+            let point = counted.points(1).next().ok_or("no point")?;
+            let mut queue = vec![ScratchEntry::EMPTY; rest.sweep_entries()];
+            let mut sweep = moved.sweep(point, &mut queue).map_err(refused)?;
+            let [low, high] = rest.bounds();
+            let slack = 0.02 * (0..3).map(|k| high[k] - low[k]).fold(0.0, f32::max);
+            for step in 0..queries {
+                let by = STEP * step as f32;
+                let place = |[x, y, z]: [f32; 3]| [x + by * z, y, z];
+                let update = sweep.update_within(slack, |vertex| place(places[vertex as usize]));
+                update.map_err(refused)?;
+                black_box(sweep.closest_point(Budget::EXACT).map_err(refused)?);
             }
         }
         "closest" => {

@@ -239,6 +239,34 @@ fn early_stop_still_contains_the_truth() {
     }
 }
 
+/// A tolerance may be met before a triangle of the surface is reached.
+#[test]
+fn with_a_tolerance_the_witness_lies_on_the_surface_and_within_upper() {
+    let mut spared = 0;
+    for scene in all() {
+        let model = scene.model();
+        let mut rng = Rng::new(18);
+        let rounding = 2.0 * f64::from(f32::EPSILON) * scene.reach() + surface_error(&model);
+        for p in scene.points(POINTS / 4, &mut rng) {
+            let exact = ask(&model, p, &Budget::EXACT, 4096);
+            for relative in [0.01, 0.05, 0.2, 3.0] {
+                for length in [1, 3, 4096] {
+                    let answer = ask(&model, p, &Budget::EXACT.with_relative(relative), length);
+                    contains(scene, p, &answer, truth(scene, p));
+                    let triangle = answer.triangle.expect("the blob is whole");
+                    let off = distance_to_triangle(answer.point, scene.corners(triangle)).lower;
+                    assert!(off <= rounding, "{}: {p:?}: {answer:?} is {off:e} off", scene.name);
+                    let reached = gap(p, answer.point);
+                    let upper = f64::from(answer.distance.upper);
+                    assert!(reached <= upper + rounding, "{}: {p:?}: {answer:?}", scene.name);
+                    spared += usize::from(answer.work.opened * 4 < exact.work.opened);
+                }
+            }
+        }
+    }
+    assert!(spared > 1000, "only {spared} answers took a quarter");
+}
+
 #[test]
 fn a_point_far_away_gets_an_interval_that_holds() {
     for scene in [

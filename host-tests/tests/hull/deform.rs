@@ -52,7 +52,7 @@ pub fn motion(positions: &[[f32; 3]], t: f64) -> Vec<[f32; 3]> {
     positions.iter().map(moved).collect()
 }
 
-fn wide(positions: &[[f32; 3]]) -> Vec<DVec3> {
+pub fn wide(positions: &[[f32; 3]]) -> Vec<DVec3> {
     positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect()
 }
 
@@ -66,7 +66,7 @@ fn holds(answer: &ClosestPoint, p: [f32; 3], positions: &[DVec3], triangles: &[[
 }
 
 /// A point anywhere about the mesh, or beside one of its vertices.
-fn point(positions: &[DVec3], rng: &mut Rng, near: bool) -> [f32; 3] {
+pub fn point(positions: &[DVec3], rng: &mut Rng, near: bool) -> [f32; 3] {
     let size = positions.iter().fold(0f64, |most, p| most.max(p.abs().max_element()));
     let mut coordinate = |reach: f64| (2.0 * rng.unit_f64() - 1.0) * reach;
     let off = DVec3::new(coordinate(1.0), coordinate(1.0), coordinate(1.0));
@@ -145,7 +145,7 @@ fn no_interval_between_key_frames_loses_the_distance() {
 }
 
 /// The mesh between the keys, of which `rest` is the first.
-fn between(rest: &[[f32; 3]], keys: &[Vec<[f32; 3]>], frame: f32) -> Vec<DVec3> {
+pub fn between(rest: &[[f32; 3]], keys: &[Vec<[f32; 3]>], frame: f32) -> Vec<DVec3> {
     let key = |index: usize| wide(if index == 0 { rest } else { &keys[index - 1] });
     let before = frame as usize;
     let part = f64::from(frame) - before as f64;

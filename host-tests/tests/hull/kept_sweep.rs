@@ -271,11 +271,66 @@ fn no_answer_lacks_memory_with_the_entries_that_the_blob_names() {
     }
 }
 
+/// At 1e-4 rad a step the point goes farther than a step is wide near the model, but every point of
+/// the model turns by little.
 #[test]
-fn the_middle_of_a_sphere_needs_most_of_the_entries_that_the_blob_names() {
+fn orbits_far_away_are_answered_in_constant_time() {
+    for name in ["torus", "bracket", "rough sphere", "two parts"] {
+        let scene = all().iter().find(|scene| scene.name == name).expect("generated");
+        let model = scene.model();
+        for diagonals in [1.0, 3.0, 10.0, 30.0, 100.0] {
+            let path = orbit(&model, diagonals, 1e-4 * diagonals, 500);
+            let mut scratch = vec![ScratchEntry::EMPTY; model.sweep_entries()];
+            let mut sweep = model.sweep(path[0], &mut scratch).expect("finite");
+            let (mut constant, mut opened) = (0, 0);
+            for &p in &path {
+                sweep.move_to(p).expect("finite");
+                let near = sweep.closest_point(Budget::EXACT).expect("answers");
+                assert_eq!(near.ended, Ended::Exact);
+                assert_eq!(near.triangle, fresh(&model, p).triangle);
+                constant += usize::from(near.work.opened == 0);
+                opened += near.work.opened;
+            }
+            assert!(constant > 350, "{name}: {diagonals}: {constant} of 500, {opened} opened");
+            contains_truth(scene, path[499], &sweep.closest_point(Budget::EXACT).expect("answers"));
+        }
+    }
+}
+
+/// A short queue keeps less beyond the nearest triangle.
+#[test]
+fn a_queue_of_an_eighth_still_answers_orbits_in_constant_time() {
+    for name in ["bracket", "rough sphere"] {
+        let scene = all().iter().find(|scene| scene.name == name).expect("generated");
+        let model = scene.model();
+        for diagonals in [1.0, 10.0, 100.0] {
+            let path = orbit(&model, diagonals, 1e-4 * diagonals, 500);
+            let mut scratch = vec![ScratchEntry::EMPTY; model.sweep_entries() / 8];
+            let mut sweep = model.sweep(path[0], &mut scratch).expect("finite");
+            let (mut constant, mut opened, mut opened_fresh, mut short) = (0, 0, 0, 0);
+            for &p in &path {
+                sweep.move_to(p).expect("finite");
+                let near = sweep.closest_point(Budget::EXACT).expect("answers");
+                contains_truth(scene, p, &near);
+                let new = fresh(&model, p);
+                constant += usize::from(near.work.opened == 0);
+                (opened, opened_fresh) =
+                    (opened + near.work.opened, opened_fresh + new.work.opened);
+                short += usize::from(near.ended == Ended::Scratch);
+            }
+            let said = format!("{name}: {diagonals}: {constant} {short} {opened} {opened_fresh}");
+            assert!(short == 0 && constant > 250 && opened < opened_fresh, "{said}");
+        }
+    }
+}
+
+/// All of the surface is nearly equally far there.
+#[test]
+fn the_middle_of_a_sphere_needs_more_than_a_short_queue() {
     let scene = Scene::hull("sphere", icosphere(4), &options(40));
     let model = scene.model();
     let middle = [[0.0; 3]];
     assert_eq!(short_answers(&model, &middle, model.sweep_entries()), 0);
-    assert_eq!(short_answers(&model, &middle, model.sweep_entries() / 2), 1);
+    assert_eq!(short_answers(&model, &middle, model.sweep_entries() / 2), 0);
+    assert_eq!(short_answers(&model, &middle, 16), 1);
 }

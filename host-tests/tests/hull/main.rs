@@ -5,6 +5,7 @@ mod check;
 mod closest;
 mod deform;
 mod deform_overlap;
+mod deform_sweep;
 mod edge_cases;
 mod kept_sweep;
 mod open;

@@ -168,7 +168,10 @@ pub fn run<'a>(steps: &mut Steps, asked: &[&'a str]) {
         "bvh BLOB RELATIVE, sweep BLOB STEP RELATIVE: far points; a step of 0: fresh \
          queries, else one kept sweep that moves",
     );
-    table.note("deform: a moved hull of any blob: its update, or the closest point after one");
+    table.note(
+        "deform: a moved hull of any blob: its update, update within a slack, or the closest point \
+         after one; kept: both, by a sweep, of frames that are sheared by 1e-4 more each",
+    );
     table.note(
         "apart, candidates, overlap: of the mesh and its copy in random poses; by vertices: apart by \
          the paper's test",

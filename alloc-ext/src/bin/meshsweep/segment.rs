@@ -13,7 +13,7 @@ use crate::served::Engine;
 use crate::{blob_file, served, triboxes};
 use meshsweep::bvh::FastBvh;
 use meshsweep_core::internal::num::{exp2, tolerance};
-use meshsweep_core::{BuildFor, Ended, Hit, TriangleHit, Work};
+use meshsweep_core::{BuildFor, Ended, FrameHull, Hit, Hull, TriangleHit, Work};
 use std::io::{self, Write};
 
 /// Hits that fit the buffer at first.
@@ -30,21 +30,48 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     if args.triboxes {
         return triboxes::segment(args, &blob);
     }
-    let engine = if args.facing.is_some() {
-        Engine::Tree(served::require_tree(file, &blob, BuildFor::Segment)?)
+    let engine = if let Some(frame) = args.frame {
+        let (hull, entries) = served::require_frame(file, &blob, frame)?;
+        Asked::Frame(hull, served::require_hull(file, &blob)?, entries)
+    } else if args.facing.is_some() {
+        Asked::Rest(Engine::Tree(served::require_tree(file, &blob, BuildFor::Segment)?))
     } else {
         let tree_chosen = args.engine.map(|engine| engine == args::Engine::Tree);
-        served::choose(file, &blob, BuildFor::Segment, tree_chosen)?
+        Asked::Rest(served::choose(file, &blob, BuildFor::Segment, tree_chosen)?)
     };
     let question = |header| {
         let segments = Queries::read(&args.segments)?;
-        let limit = Some(farthest(&engine));
+        let limit = Some(farthest(&engine.rest()));
         Ok(Question { limit, ..Question::new(header, segments, search) })
     };
     if args.all {
         ask_all(args, engine, question("query,hit,t,px,py,pz,triangle,work")?)
     } else {
         ask_first(args, engine, question("hit,t,px,py,pz,triangle,work")?)
+    }
+}
+
+/// What segments are asked of.
+#[derive(Clone, Copy)]
+enum Asked<'a> {
+    Rest(Engine<'a>),
+    /// A mesh at a key frame, the same at rest, and the scratch entries to ask it with.
+    Frame(FrameHull<'a>, Hull<'a>, usize),
+}
+
+impl<'a> Asked<'a> {
+    fn rest(&self) -> Engine<'a> {
+        match self {
+            Asked::Rest(engine) => *engine,
+            Asked::Frame(_, hull, _) => Engine::Hull(*hull),
+        }
+    }
+
+    fn scratch_entries(&self) -> usize {
+        match self {
+            Asked::Rest(engine) => engine.scratch_entries(),
+            Asked::Frame(_, _, entries) => *entries,
+        }
     }
 }
 
@@ -69,7 +96,7 @@ fn farthest(engine: &Engine<'_>) -> String {
 /// Asks for the first hit of each segment.
 fn ask_first(
     args: &SegmentArgs,
-    engine: Engine<'_>,
+    engine: Asked<'_>,
     question: Question<'_, 6>,
 ) -> Result<(), Failure> {
     let (facing, budget) = (args.facing(), args.search.budget());
@@ -78,8 +105,11 @@ fn ask_first(
         |segment, scratch| {
             let [a, b] = ends(segment);
             match &engine {
-                Engine::Tree(tree) => FastBvh::new(*tree).first_hit(a, b, facing, budget, scratch),
-                Engine::Hull(hull) => hull.first_hit(a, b, budget, scratch),
+                Asked::Rest(Engine::Tree(tree)) => {
+                    FastBvh::new(*tree).first_hit(a, b, facing, budget, scratch)
+                }
+                Asked::Rest(Engine::Hull(hull)) => hull.first_hit(a, b, budget, scratch),
+                Asked::Frame(hull, ..) => hull.first_hit(a, b, budget, scratch),
             }
         },
         |out, _, segment, found| match found.hit {
@@ -94,7 +124,7 @@ fn ask_first(
 /// if triangles may be missing.
 fn ask_all(
     args: &SegmentArgs,
-    engine: Engine<'_>,
+    engine: Asked<'_>,
     question: Question<'_, 6>,
 ) -> Result<(), Failure> {
     let (facing, budget) = (args.facing(), args.search.budget());
@@ -108,10 +138,13 @@ fn ask_all(
                     &mut buffer,
                     TriangleHit::EMPTY,
                     |hits| match &engine {
-                        Engine::Tree(tree) => {
+                        Asked::Rest(Engine::Tree(tree)) => {
                             tree.all_hits(a, b, facing, hits, budget, &mut scratch)
                         }
-                        Engine::Hull(hull) => hull.all_hits(a, b, hits, budget, &mut scratch),
+                        Asked::Rest(Engine::Hull(hull)) => {
+                            hull.all_hits(a, b, hits, budget, &mut scratch)
+                        }
+                        Asked::Frame(hull, ..) => hull.all_hits(a, b, hits, budget, &mut scratch),
                     },
                     |all| (all.stored, all.dropped),
                 )?;

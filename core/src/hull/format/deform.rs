@@ -121,6 +121,12 @@ impl<'a> DeformableHull<'a> {
         self.hull
     }
 
+    /// The same where it lies.
+    #[inline(always)]
+    pub(crate) fn tables(&self) -> &Hull<'a> {
+        &self.hull
+    }
+
     /// With this many scratch entries no closest point ends for lack of memory.
     pub fn scratch_entries(&self) -> usize {
         self.hull.scratch_entries()

@@ -5,23 +5,26 @@ use super::safe_motion::{SAFE_PAUSE, SAFE_STEPS, SAFE_TRIANGLES};
 use super::{QueueHolds, Sweep};
 use crate::hull::format::Instance;
 use crate::hull::front::Refinable;
+use crate::hull::geometry::Geometry;
 use crate::num::down_to_f32;
-use crate::num::tolerance::{HULL_FAR, SUMMED};
+use crate::num::tolerance::{HULL_FAR, SUMMED, SWEEP_LEAST};
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 
-impl Sweep<'_, '_> {
+impl<'a, G: Geometry<'a>> Sweep<'_, G> {
     /// Closest point of the surface: the same triangle as
-    /// [`Hull::closest_point`](crate::Hull::closest_point) names.
+    /// [`Hull::closest_point`](crate::Hull::closest_point) names, of the mesh as it is now.
     ///
     /// After [`Ended::Steps`] or [`Ended::Tolerance`] another call goes on where this one stopped.
     /// While the point has moved less than half the gap between the nearest few triangles and the
     /// others, the answer takes constant time: these few triangles. `work.opened` is 0 then.
     ///
     /// # Errors
-    /// [`QueryError::Tolerance`].
+    /// [`QueryError::Tolerance`]; [`QueryError::NoPose`] after an update that failed.
     #[inline(never)]
     pub fn closest_point(&mut self, budget: Budget) -> Result<ClosestPoint, QueryError> {
         budget.check()?;
+        self.front.model.check()?;
+        self.is_answered = true;
         self.nearest(&budget).ok_or(QueryError::Unchecked)
     }
 
@@ -31,7 +34,8 @@ impl Sweep<'_, '_> {
             let mut far = self.nearest_from_here()?;
             far.settle_by_box(&self.front.model)?;
             let ended = self.ended();
-            return Some(far.answer(&self.front.model, &self.frame, Work::NONE, ended));
+            let tables = self.front.model.tables();
+            return Some(far.answer(tables, &self.frame, Work::NONE, ended));
         }
         let mut is_new = self.holds != QueueHolds::Near;
         let mut evaluated = 0;
@@ -60,8 +64,10 @@ impl Sweep<'_, '_> {
                 .min(bound_of(self.front.queue.dropped(), self.moved));
             self.pruned = self.pruned.min(enqueuer.pruned);
             self.best = enqueuer.nearest.instance();
-            // An entry that was lost may be the nearest, so the search starts once more.
-            if lost < enqueuer.nearest.upper() && !is_new {
+            // An entry that was lost may be the nearest, so the search starts once more. It does so
+            // while the queue overflows and may keep less.
+            let may_shrink = self.front.queue.dropped() < f32::INFINITY && self.kept > SWEEP_LEAST;
+            if lost < enqueuer.nearest.upper() && (!is_new || may_shrink) {
                 is_new = true;
                 evaluated = enqueuer.nearest.work(Work::NONE).exact;
                 continue;
@@ -71,13 +77,14 @@ impl Sweep<'_, '_> {
             let mut work = enqueuer.nearest.work(self.front.work);
             work.exact = work.exact.saturating_add(evaluated);
             enqueuer.nearest.settle_unreached(&self.front.model)?;
-            return Some(enqueuer.nearest.answer(&self.front.model, &self.frame, work, ended));
+            let tables = self.front.model.tables();
+            return Some(enqueuer.nearest.answer(tables, &self.frame, work, ended));
         }
     }
 
     /// Refines until no triangle that waits may be nearer than the best one.
     fn run(&mut self, enqueuer: &mut Enqueuer, budget: &Budget) -> Option<Ended> {
-        let error = f64::from(self.front.model.header().surface_error);
+        let error = self.front.model.surface_error();
         let (relative, absolute) = (f64::from(budget.relative), self.frame.length(budget.absolute));
         let margin = self.margin();
         let mut ended = self.ended();

@@ -3,22 +3,25 @@
 use super::{QueueHolds, Sweep};
 use crate::hull::format::Instance;
 use crate::hull::front::Refinable;
+use crate::hull::geometry::Geometry;
 use crate::num::down_to_f32;
 use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 
-impl Sweep<'_, '_> {
+impl<'a, G: Geometry<'a>> Sweep<'_, G> {
     /// The next triangle of the surface by rising distance, with its own interval. `None` after the
-    /// last one. [`move_to`](Self::move_to) and [`closest_point`](Self::closest_point) begin anew.
+    /// last one. The first calls give the nearest triangles; all that are within d have come when
+    /// `distance.lower` is above d. A motion and [`closest_point`](Self::closest_point) begin anew.
     ///
     /// If the search ends early, `triangle` is `None` and no triangle that is left is nearer than
     /// `distance.lower`. Of the budget only `steps` matters. On a cut blob the triangles are those
     /// of the hull.
     ///
     /// # Errors
-    /// [`QueryError::Tolerance`].
+    /// [`QueryError::Tolerance`]; [`QueryError::NoPose`] after an update that failed.
     #[inline(never)]
     pub fn next_triangle(&mut self, budget: Budget) -> Result<Option<ClosestPoint>, QueryError> {
         budget.check()?;
+        self.front.model.check()?;
         self.next(&budget).ok_or(QueryError::Unchecked)
     }
 
@@ -34,7 +37,6 @@ impl Sweep<'_, '_> {
         if begins {
             self.front.begin(&mut enqueuer)?;
         }
-        let model = self.front.model;
         let mut exact = 0;
         while let Some(entry) = self.front.queue.pop_heap() {
             let least = self.front.queue.dropped();
@@ -43,7 +45,8 @@ impl Sweep<'_, '_> {
                 let ended = if least < entry.key() { Ended::Scratch } else { Ended::Steps };
                 let mut known = self.nearest_from_here()?;
                 known.lower_to(f64::from(least.min(entry.key())));
-                let answer = known.answer(&model, &self.frame, self.front.work, ended);
+                let answer =
+                    known.answer(self.front.model.tables(), &self.frame, self.front.work, ended);
                 return Some(Some(ClosestPoint { triangle: None, ..answer }));
             }
             let candidate = self.front.look(Instance(entry.node()))?;
@@ -64,12 +67,14 @@ impl Sweep<'_, '_> {
             alone.raise_to(f64::from(entry.key()));
             alone.lower_to(f64::from(key));
             let work = Work { exact, ..self.front.work };
-            return Some(Some(alone.answer(&model, &self.frame, work, self.ended())));
+            let tables = self.front.model.tables();
+            return Some(Some(alone.answer(tables, &self.frame, work, self.ended())));
         }
         if self.front.queue.dropped().is_finite() {
             let mut known = self.nearest_from_here()?;
             known.lower_to(f64::from(self.front.queue.dropped()));
-            let answer = known.answer(&model, &self.frame, self.front.work, Ended::Scratch);
+            let tables = self.front.model.tables();
+            let answer = known.answer(tables, &self.frame, self.front.work, Ended::Scratch);
             return Some(Some(ClosestPoint { triangle: None, ..answer }));
         }
         Some(None)

@@ -21,7 +21,10 @@ pub(super) struct Model<G> {
 }
 
 impl<'a, G: Geometry<'a>> Model<G> {
-    pub(super) fn of_hull(hull: &G) -> Result<Model<G>, QueryError> {
+    pub(super) fn of_hull(hull: &G) -> Result<Model<G>, QueryError>
+    where
+        G: Copy,
+    {
         if !hull.tables().has_hull() {
             return Err(QueryError::NO_HULL);
         }

@@ -152,8 +152,8 @@ impl Hull<'_> {
 
 /// [`Hull::overlap`], of hulls at rest or deformed.
 pub(in crate::hull) fn overlap<'a, 'b>(
-    a: &impl Geometry<'a>,
-    b: &impl Geometry<'b>,
+    a: &(impl Geometry<'a> + Copy),
+    b: &(impl Geometry<'b> + Copy),
     pose: &Pose,
     budget: &Budget,
     scratch: &mut [ScratchEntry],

@@ -206,8 +206,18 @@ pub struct SegmentArgs {
     pub engine: Option<Engine>,
     /// Ask the blob's triboxes, which can tell that a segment is clear, or up to where, and nothing
     /// else
-    #[arg(long, conflicts_with_all = ["all", "facing", "engine"])]
+    #[arg(long, conflicts_with_all = ["all", "facing", "engine", "frame"])]
     pub triboxes: bool,
+    /// Key frame of a blob built --for deform, from 0
+    ///
+    /// 1.25 is a quarter of the way from frame 1 to frame 2. Between frames no hit is proved.
+    #[arg(
+        long,
+        value_name = "FRAME",
+        value_parser = frame,
+        conflicts_with_all = ["engine", "facing"]
+    )]
+    pub frame: Option<f32>,
     #[command(flatten)]
     pub search: SearchArgs,
 }
