@@ -36,7 +36,7 @@ pub(super) struct Asked {
 }
 
 /// The interval of the distance of each point, lower and upper end. The upper end is infinite if
-/// the structure has none. The setting asks closest points.
+/// the structure has none. The setting's question is [`Question::ClosestPoint`].
 ///
 /// # Errors
 /// A blob without the setting's structure, or a point that is refused.

@@ -17,7 +17,7 @@ pub enum NotBuilt {
         /// Its faces.
         faces: usize,
     },
-    /// No level of the hierarchy is as near as asked for, but the surface itself.
+    /// Every level that is coarser than the surface is farther from it than asked.
     NoLevel,
 }
 
@@ -28,7 +28,7 @@ impl fmt::Display for NotBuilt {
             Self::Refused(BuildError::NotSolid { error, .. }) => error.fmt(f),
             Self::Refused(error) => error.fmt(f),
             Self::Stuck { faces } => write!(f, "the search stopped at {faces} faces"),
-            Self::NoLevel => f.write_str("no level but the surface itself is so near"),
+            Self::NoLevel => f.write_str("every coarser level is farther from the surface"),
         }
     }
 }

@@ -124,8 +124,9 @@ impl Limits {
         row.scratch as f64 + self.instructions(row).map_or(0.0, |found| f64::from(found.stack))
     }
 
-    /// Chooses the setting that meets all limits: with a limit of the error the one of the fewest
-    /// instructions, else the one of the smallest error. [`measure()`](super::measure()) gives the
+    /// Chooses a setting that meets all limits: with a limit of the error the one of the fewest
+    /// mean instructions, else the one of the smallest error. The rate is compared with the
+    /// costliest query. [`measure()`](super::measure()) gives the
     /// settings.
     ///
     /// # Errors

@@ -141,7 +141,7 @@ impl Row {
     }
 }
 
-/// A setting that was not measured.
+/// A recipe that was not built, and why.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
     /// Its recipe.
@@ -174,13 +174,18 @@ impl Trade {
     }
 }
 
-/// Measures settings of a mesh, as read and as repaired, at some points: those of each place in a
-/// row, as the setting's [question](Setting::question) takes them. Structures are built on all
-/// cores. `progress` is called from any of them, with the number of structures built and
-/// settings asked, and of how many.
+/// Measures each setting on a mesh.
+///
+/// `source` is the file, `repaired` the mesh that was made of it. `points` are in the mesh's unit;
+/// each query takes [`Question::points`](super::Question::points) of them in a row. Without points
+/// there are no rows. A recipe that cannot be built is in [`Trade::missing`]. `progress(done, all)`
+/// is called from any thread.
+///
+/// Cost: a build for each recipe, on all cores; each query twice for each setting, and once against
+/// all triangles in f64.
 ///
 /// # Errors
-/// A point that is not finite.
+/// A point that is not finite, and a setting whose structure does not serve its question.
 pub fn measure(
     source: &Source,
     repaired: &Loaded,

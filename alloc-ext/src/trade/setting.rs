@@ -53,8 +53,9 @@ pub struct Setting {
     pub budget: Budget,
     /// What a query keeps of the one before.
     pub how: How,
-    /// Entries of scratch; `None`: as many as suffice, twice as many for a box tree with a limit of
-    /// steps, or [`SWEEP_ENTRIES`](Self::SWEEP_ENTRIES) of a kept sweep.
+    /// Entries of scratch, at least one; more than suffice count as those that suffice. `None`: as
+    /// many as suffice, twice as many for a box tree with a limit of steps, or
+    /// [`SWEEP_ENTRIES`](Self::SWEEP_ENTRIES) of a kept sweep.
     pub entries: Option<usize>,
 }
 

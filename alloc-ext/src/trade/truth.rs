@@ -25,7 +25,7 @@ impl Truth {
         let sphere = |corners: &[DVec3; 3]| {
             let centre = corners.iter().sum::<DVec3>() / 3.0;
             let radius = corners.iter().fold(0f64, |most, &p| most.max(p.distance(centre)));
-            // More than the roundings of both.
+            // Covers the roundings of the centre and of distances to it.
             (centre, radius * (1.0 + 1e-9))
         };
         let spheres = triangles.iter().map(sphere).collect();

@@ -145,7 +145,7 @@ impl Choosing<'_> {
         best
     }
 
-    /// Planes of a slab that are tried, ascending: evenly, and through extrema.
+    /// Planes of a slab that are tried, ascending: evenly, and just beyond extrema.
     fn candidates(&self, cell: &Cell, slab: usize, count: u32) -> Vec<f64> {
         let mut planes = self.evenly(cell, slab, count);
         if let Some(extrema) = self.extrema {

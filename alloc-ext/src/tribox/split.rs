@@ -224,7 +224,7 @@ fn grid_unit(tribox: &Tribox) -> f64 {
     exp2(((most.to_bits() >> 23).cast_signed() - 126 - 20).max(-147))
 }
 
-/// Whether a tribox is too flat for volumes: about a thousand times as wide as thick.
+/// Whether a tribox is too flat for volumes: some 3,500 times as wide as thick.
 fn is_flat(tribox: &Tribox) -> bool {
     let Extent { area, volume } = Extent::of(tribox);
     volume <= 1e-4 * area * area.sqrt()

@@ -37,8 +37,9 @@ pub struct TriboxOptions {
     /// hull of what it holds, input units: formula (10) of the paper. `None`: where it gains
     /// nothing.
     pub error: Option<f64>,
-    /// Turns the mesh to where its tribox has the least of this measure, if the triboxes of the
-    /// finest level then have less in all.
+    /// The mesh is also split in the orientation in which its tribox has the least of this measure.
+    /// The blob keeps the turned triboxes if they are fewer, where [`error`](Self::error) is set,
+    /// else if the finest level has less of the measure in all. Cost: a second split.
     pub orient: Option<Measure>,
     /// Planes just beyond local extrema of the mesh are tried too.
     pub extrema: bool,
@@ -56,7 +57,7 @@ impl TriboxOptions {
         with_error: Option<f64> => error,
         /// Sets the measure of the [orientation](Self::orient).
         with_orient: Option<Measure> => orient,
-        /// Sets whether planes through [extrema](Self::extrema) are tried.
+        /// Sets whether planes just beyond [extrema](Self::extrema) are tried.
         with_extrema: bool => extrema,
     }
 }

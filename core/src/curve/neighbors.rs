@@ -121,8 +121,8 @@ impl Curve<'_> {
     /// If `out` is longer than the curve, all segments are stored. If it is empty, nothing is
     /// looked at. After an error its contents are undefined. `scratch` as for
     /// [`closest_point`](Curve::closest_point). Of the budget only `steps` matters. Farther than
-    /// 2^24 times the curve's size all segments are alike: the first of the file, each with the
-    /// interval of the curve's box.
+    /// 2^24 times the curve's size from the origin all segments are alike: the first of the file are
+    /// given, each with the interval of the curve's box.
     ///
     /// Cost: that of the closest point, a distance in f64 for each segment near the last one, and
     /// one more for each that is stored. `out` is kept in order: a segment that enters moves those

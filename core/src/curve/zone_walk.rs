@@ -15,8 +15,9 @@
 //!
 //! *Runs.* A run of points lies in a capsule, which is convex. If p is outside of the capsule, the
 //! run can be moved onto the segment between its ends, without touching p and with its ends fixed.
-//! So that segment crosses the ray as often as the run does. Of a run over several polylines the
-//! part of each one counts so, and a polyline that is whole in it counts nothing.
+//! So that segment crosses the ray as often as the run does. A run may hold the end of
+//! one polyline, whole polylines, and the beginning of another. The two parts count as above. A
+//! whole polyline in the capsule has winding number 0.
 //!
 //! *The walk.* Nodes lie in the order of a descent. So the walk goes through points and nodes side
 //! by side, skips the nodes of a run that it replaces, and needs no memory.
@@ -44,13 +45,13 @@ pub(super) struct ZoneWalk<'a> {
     /// Whether the point is in an inclusion zone, and in an exclusion zone.
     included: bool,
     excluded: bool,
-    /// Whether rounding leaves a turn open: the point is on the curve.
+    /// Whether rounding hides the sign of a turn: the point is on the curve.
     is_unclear: bool,
 }
 
 /// Whether the zones allow `p` (local frame). `None`: the curve is unchecked.
 ///
-/// The answer is that of the stored curve. It is right where `p` is not on it.
+/// The answer is right if `p` is not on the stored curve.
 pub(super) fn is_allowed(
     curve: &Curve<'_>,
     p: DVec3,

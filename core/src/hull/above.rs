@@ -116,7 +116,7 @@ impl Above {
         let upper = nearest.point().distance(place.as_dvec3()) * (1.0 + 8.0 * U64);
         if upper < nearest.upper() {
             (self.vertex, self.upper) = (Some(vertex), upper);
-            nearest.lower_upper(upper);
+            nearest.limit_upper(upper);
         }
         Some(())
     }

@@ -110,14 +110,18 @@ impl<'a> DeformableHull<'a> {
 
 impl<'a> FrameHull<'a> {
     /// The same mesh at another frame, and how far a vertex of the surface moves at most on the
-    /// way there, local frame; infinite over more than two keys.
+    /// way there, local frame; infinite over more intervals between keys than two.
     ///
-    /// Cost: constant between two keys whose pace this hull knows, else one pass over the vertices.
+    /// Cost: one pass over the vertices for each interval whose pace is not known. The pace of one
+    /// interval is kept.
     pub(super) fn followed(&self, frame: f32) -> Result<(FrameHull<'a>, f64), QueryError> {
         let mut there = self.model.at_frame(frame)?;
         there.pace = self.pace;
         let (from, to) = (lesser(self.frame, frame), greater(self.frame, frame));
         let first = from as u32;
+        if to > first.saturating_add(FOLLOWED) as f32 {
+            return Ok((there, f64::INFINITY));
+        }
         // The bounds of before may be too high by the rounding of then.
         let mut motion = (self.rounding - there.rounding).max(0.0);
         for key in first..first.saturating_add(FOLLOWED) {
@@ -130,8 +134,7 @@ impl<'a> FrameHull<'a> {
                 motion += (f64::from(end) - f64::from(start)) * there.pace.motion;
             }
         }
-        let is_near = to <= first.saturating_add(FOLLOWED) as f32;
-        Ok((there, if is_near { motion * SUMMED } else { f64::INFINITY }))
+        Ok((there, motion * SUMMED))
     }
 
     /// One pass over the vertices of the surface.

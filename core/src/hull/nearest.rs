@@ -233,7 +233,7 @@ impl Nearest {
     }
 
     /// A point of the surface is this near.
-    pub(super) fn lower_upper(&mut self, upper: f64) {
+    pub(super) fn limit_upper(&mut self, upper: f64) {
         self.upper = upper;
         self.set_limit(upper);
     }
@@ -249,12 +249,12 @@ impl Nearest {
     }
 
     /// Triangles that were not looked at may be as near as this.
-    pub(super) fn lower_to(&mut self, bound: f64) {
+    pub(super) fn limit_lower(&mut self, bound: f64) {
         self.lower = self.lower.min(bound);
     }
 
     /// Nothing is nearer than this.
-    pub(super) fn raise_to(&mut self, bound: f64) {
+    pub(super) fn raise_lower(&mut self, bound: f64) {
         self.lower = self.lower.max(bound);
     }
 

@@ -149,7 +149,7 @@ impl<'a> Curve<'a> {
         Ok(())
     }
 
-    /// Node 0 covers all points. Every other node is what its parent makes of the run of its own,
+    /// Node 0 covers all points. Every other node stores the run that its parent's split gives it,
     /// and nodes follow in the order of a descent, left before right.
     fn check_nodes(&self) -> Result<(), OpenError> {
         let bad = |index: u32| OpenError::Record { section: SectionKind::Curves, index };

@@ -15,8 +15,11 @@ impl<'a, G: Geometry<'a>> Sweep<'_, G> {
     /// [`Hull::closest_point`](crate::Hull::closest_point) names, of the mesh as it is now.
     ///
     /// After [`Ended::Steps`] or [`Ended::Tolerance`] another call goes on where this one stopped.
-    /// While the point has moved less than half the gap between the nearest few triangles and the
-    /// others, the answer takes constant time: these few triangles. `work.opened` is 0 then.
+    /// Half of the distance by which all other triangles are farther than the nearest few is a safe
+    /// motion. Farther than 2^40 times the model's size from it, the model's box gives the interval.
+    ///
+    /// Cost: constant while the motion is safe, at most twelve triangles, and `work.opened` is 0.
+    /// Else that of a search. Source: Guéziec 2000, 3.3 and 5.1.
     ///
     /// # Errors
     /// [`QueryError::Tolerance`]; [`QueryError::NoPose`] after an update that failed.
@@ -73,7 +76,7 @@ impl<'a, G: Geometry<'a>> Sweep<'_, G> {
                 continue;
             }
             let ended = if lost < enqueuer.nearest.upper() { Ended::Scratch } else { ended };
-            enqueuer.nearest.lower_to(lost);
+            enqueuer.nearest.limit_lower(lost);
             let mut work = enqueuer.nearest.work(self.front.work);
             work.exact = work.exact.saturating_add(evaluated);
             enqueuer.nearest.settle_unreached(&self.front.model)?;
@@ -116,7 +119,7 @@ impl<'a, G: Geometry<'a>> Sweep<'_, G> {
             if is_near_enough || self.front.is_spent() {
                 ended = if is_near_enough { Ended::Tolerance } else { Ended::Steps };
                 let waiting = bound_of(self.front.queue.lower(), self.moved);
-                enqueuer.nearest.lower_to(bound.min(waiting));
+                enqueuer.nearest.limit_lower(bound.min(waiting));
                 self.front.queue.push(entry);
                 break;
             }

@@ -44,10 +44,11 @@ impl<'a> FrameHull<'a> {
 
 impl Sweep<'_, FrameHull<'_>> {
     /// Moves the mesh to another frame, as [`at_frame`](crate::DeformableHull::at_frame). Bounds
-    /// are charged the largest displacement of a vertex on the way. Over more than two keys the
-    /// next search begins anew.
+    /// are charged the largest displacement of a vertex on the way. After a motion over more than
+    /// two intervals between keys the next search begins anew.
     ///
-    /// Cost: constant between the same two keys as the last time, else one pass over the vertices.
+    /// Cost: constant within the interval of the last motion, else one pass over the vertices for
+    /// each interval.
     ///
     /// # Errors
     /// [`QueryError::NoFrame`], which changes nothing.

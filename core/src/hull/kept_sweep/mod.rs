@@ -8,15 +8,15 @@
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `motion` | how far a motion of the point may bring a part of the mesh |
+//! | `motion` | how much nearer a motion of the point may bring a part of the mesh |
 //! | `deformed` | sweeps of a mesh at key frames, or moved freely |
 //! | `enqueue` | triangles on their way into the queue, with keys that outlast a motion |
 //! | `closest_point` | the closest point, and where a search goes on |
 //! | `safe_motion` | how far the point may move before another triangle may be the nearest |
 //! | `next_triangle` | one triangle after another |
 //!
-//! Words for triangles. The first two kinds are not in the queue. They lower `lost`, the least
-//! bound of what an answer cannot see.
+//! Words for triangles. Pruned and dropped ones have left the queue: they are lost, and the least
+//! key of the lost ones bounds every answer from below. Those aside leave it until the search ends.
 //!
 //! | word | the triangle |
 //! | --- | --- |

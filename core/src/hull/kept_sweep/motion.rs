@@ -1,4 +1,4 @@
-//! How far a motion of the point may bring a part of the mesh.
+//! How much nearer a motion of the point may bring a part of the mesh.
 
 use crate::geom::Aabb;
 use crate::num::tolerance::{TURNED, TURNS_FROM, U64};

@@ -9,12 +9,12 @@ use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
 
 impl<'a, G: Geometry<'a>> Sweep<'_, G> {
     /// The next triangle of the surface by rising distance, with its own interval. `None` after the
-    /// last one. The first calls give the nearest triangles; all that are within d have come when
-    /// `distance.lower` is above d. A motion and [`closest_point`](Self::closest_point) begin anew.
+    /// last one. Once `distance.lower` exceeds d, every triangle within d was returned. After a
+    /// motion or [`closest_point`](Self::closest_point) the next call gives the nearest one again.
     ///
     /// If the search ends early, `triangle` is `None` and no triangle that is left is nearer than
     /// `distance.lower`. Of the budget only `steps` matters. On a cut blob the triangles are those
-    /// of the hull.
+    /// of the hull. Cost: that of a search up to the triangle's distance. Source: Guéziec 2000, 4.4.
     ///
     /// # Errors
     /// [`QueryError::Tolerance`]; [`QueryError::NoPose`] after an update that failed.
@@ -44,7 +44,7 @@ impl<'a, G: Geometry<'a>> Sweep<'_, G> {
                 self.front.queue.push(entry);
                 let ended = if least < entry.key() { Ended::Scratch } else { Ended::Steps };
                 let mut known = self.nearest_from_here()?;
-                known.lower_to(f64::from(least.min(entry.key())));
+                known.limit_lower(f64::from(least.min(entry.key())));
                 let answer =
                     known.answer(self.front.model.tables(), &self.frame, self.front.work, ended);
                 return Some(Some(ClosestPoint { triangle: None, ..answer }));
@@ -64,15 +64,15 @@ impl<'a, G: Geometry<'a>> Sweep<'_, G> {
                 continue;
             }
             // Keys are f32. The answer takes them, so that distances rise.
-            alone.raise_to(f64::from(entry.key()));
-            alone.lower_to(f64::from(key));
+            alone.raise_lower(f64::from(entry.key()));
+            alone.limit_lower(f64::from(key));
             let work = Work { exact, ..self.front.work };
             let tables = self.front.model.tables();
             return Some(Some(alone.answer(tables, &self.frame, work, self.ended())));
         }
         if self.front.queue.dropped().is_finite() {
             let mut known = self.nearest_from_here()?;
-            known.lower_to(f64::from(self.front.queue.dropped()));
+            known.limit_lower(f64::from(self.front.queue.dropped()));
             let tables = self.front.model.tables();
             let answer = known.answer(tables, &self.frame, self.front.work, Ended::Scratch);
             return Some(Some(ClosestPoint { triangle: None, ..answer }));
