@@ -14,8 +14,11 @@ const CURVE: &str = "curve";
 /// A polyline of the file that curves were built from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilePolyline {
-    /// Its points, without the closing one.
+    /// Its points.
     pub points: Vec<[f64; 3]>,
+    /// Whether the file says that the last one is joined with the first: by a zone, or because they
+    /// are equal.
+    pub is_closed: bool,
     /// Whether it is an exclusion zone.
     pub is_exclusion: bool,
 }
@@ -131,7 +134,8 @@ impl Curves {
         }
         let scale = 2f64.powi(-self.scale_exponent);
         let (mut closed, mut exact) = (0, 0);
-        for (index, FilePolyline { points: given, .. }) in given.iter().enumerate() {
+        for (index, polyline) in given.iter().enumerate() {
+            let given = &polyline.points;
             let run = self.run(index)?;
             let is_closed = self.polylines[index].1;
             let repeats = usize::from(is_closed && run.len() == given.len() + 1);
@@ -139,7 +143,12 @@ impl Curves {
             if run.len() != given.len() + repeats {
                 return Err(format!("polyline {index}: {} points of {}", run.len(), given.len()));
             }
-            if is_closed && run.first() != run.last() {
+            if polyline.is_closed && !is_closed {
+                return Err(format!("polyline {index} is closed in the file, and stored open"));
+            }
+            // What is closed on the grid alone is closed by nobody.
+            let is_joined = repeats == 1 || given.first() == given.last();
+            if is_closed && !(is_joined && run.first() == run.last()) {
                 return Err(format!("polyline {index} is not closed, its record says it is"));
             }
             for (k, (&stored, there)) in

@@ -177,9 +177,13 @@ impl Shape {
         Self::of_tree(hull.bvh())
     }
 
-    /// Of triboxes.
+    /// Of triboxes. Every place counts as inside of turned ones.
     #[must_use]
     pub fn of_triboxes(triboxes: &Triboxes<'_>) -> Self {
+        if triboxes.is_turned() {
+            let all = f32::INFINITY;
+            return Self { low: [-all; 3], high: [all; 3], leaf: f64::INFINITY };
+        }
         let corner = |of: [f32; 9]| [of[0], of[1], of[2]];
         let corners = triboxes.node(0).map(|root| [root.low, root.high].map(corner));
         let [low, high] = corners.unwrap_or_default();

@@ -184,8 +184,15 @@ impl<'a> Grown<'a> {
         Ok(Self { mesh, bytes, lattice, hierarchy, turn })
     }
 
+    /// The largest error of the finest level, as it is stored.
+    fn largest_error(&self) -> f64 {
+        let leaves = self.hierarchy.nodes.iter().filter(|node| node.split.is_none());
+        leaves.map(|leaf| self.lattice.claimed(leaf.error)).fold(0.0, f64::max)
+    }
+
     /// Splits a mesh in its own frame and in the orientation of its tribox's least measure, and
-    /// takes the one with the fewer triboxes for the asked error, or with less in all.
+    /// takes the one that reaches the asked error with the fewer triboxes, or that has less in all.
+    /// Where a turned mesh has coordinates beyond the domain, its own frame stays.
     fn least(
         input: Input<'a>,
         options: &TriboxOptions,
@@ -194,11 +201,16 @@ impl<'a> Grown<'a> {
     ) -> Result<Self, BuildError> {
         let own = Self::new(input, options, None, watch.part(0.0, 0.5))?;
         let Some(turn) = orientation(input.mesh, measure) else { return Ok(own) };
-        let turned = Self::new(input, options, Some(turn), watch.part(0.5, 1.0))?;
+        let turned = match Self::new(input, options, Some(turn), watch.part(0.5, 1.0)) {
+            Ok(turned) => turned,
+            Err(BuildError::Cancelled) => return Err(BuildError::Cancelled),
+            Err(_) => return Ok(own),
+        };
         let cost = |grown: &Self| {
             let triboxes = proxies(&grown.hierarchy, usize::MAX);
             let sum: f64 = triboxes.iter().map(|tribox| measure.of(Extent::of(tribox))).sum();
-            (if options.error.is_some() { triboxes.len() } else { 0 }, sum)
+            let misses = options.error.is_some_and(|error| grown.largest_error() > error);
+            (misses, if options.error.is_some() { triboxes.len() } else { 0 }, sum)
         };
         Ok(if cost(&turned) < cost(&own) { turned } else { own })
     }

@@ -119,6 +119,15 @@ fn a_fence_says_what_it_allows_and_how_far_its_line_is() {
     let turned = file(&directory, "turned.csv", &ZONES.replace("exclusion", "Inclusion"));
     let told = refused(&run(["verify", arg(&fence), arg(&turned)]), 3, "zones.msw");
     assert!(told.contains("failed: curve"), "{told}");
+    // A blob without the side that a zone closes is not the file's.
+    let plain = file(&directory, "plain.csv", "x,y\n0,0\n9,0\n9,9\n0,9\n");
+    let open = directory.join("open.msw");
+    ok(["build", arg(&plain), "-o", arg(&open)]);
+    ok(["verify", arg(&open), arg(&plain)]);
+    let zoned = "x,y,zone\n0,0,inclusion\n9,0,inclusion\n9,9,inclusion\n0,9,inclusion\n";
+    let zoned = file(&directory, "zoned.csv", zoned);
+    let told = refused(&run(["verify", arg(&open), arg(&zoned)]), 3, "open.msw");
+    assert!(told.contains("closed in the file"), "{told}");
 }
 
 #[test]

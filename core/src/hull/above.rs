@@ -33,7 +33,8 @@ impl Above {
     /// No vertex.
     pub(super) const NONE: Above = Above { vertex: None, upper: f64::INFINITY, again: u32::MAX };
 
-    /// Looks below the nearest vertex of the base hull, or of some of them. Does nothing where
+    /// Looks below the nearest corner of the base hull, of its triangles or of some of them: a vertex
+    /// of no triangle would be no point of the surface. Does nothing where
     /// vertices may lie off the surface: in a cut blob, and in levels that do not enclose it, some
     /// of whose vertices only close the mesh.
     #[inline(never)]
@@ -48,14 +49,18 @@ impl Above {
         }
         let p = nearest.point().as_vec3();
         let mut best = (f32::INFINITY, VertIdx(0));
-        let count = tables.header().base_vertices;
+        let count = tables.header().base_triangles;
         let mut index = 0;
         while index < count {
-            let square = geometry.place(VertIdx(index))?.distance_squared(p);
+            let [vertex, ..] = tables.base_triangle(index)?;
+            let square = geometry.place(vertex)?.distance_squared(p);
             if square < best.0 {
-                best = (square, VertIdx(index));
+                best = (square, vertex);
             }
             index += count / TRIED + 1;
+        }
+        if best.0 == f32::INFINITY {
+            return Some(());
         }
         self.again = 0;
         self.descend(geometry, best.1, p, nearest)
@@ -138,7 +143,7 @@ impl Above {
     }
 }
 
-/// Vertices of the base hull that are compared at most: the usual base hull has a hundred.
+/// Triangles of the base hull whose first corners are compared at most.
 const TRIED: u32 = 128;
 /// A nearer vertex is looked for if one at this part of the upper bound would meet the tolerance.
 const HOPED: f64 = 0.92;

@@ -122,8 +122,8 @@ impl<'a> FrameHull<'a> {
         if to > first.saturating_add(FOLLOWED) as f32 {
             return Ok((there, f64::INFINITY));
         }
-        // The bounds of before may be too high by the rounding of then.
-        let mut motion = (self.rounding - there.rounding).max(0.0);
+        // Bounds of before and of now are off by the roundings of their vertices, each way.
+        let mut motion = self.rounding + there.rounding;
         for key in first..first.saturating_add(FOLLOWED) {
             let start = greater(from, key as f32);
             let end = lesser(to, key.saturating_add(1) as f32);

@@ -180,6 +180,12 @@ impl<'a, 'm, G: Geometry<'a>> Front<'m, G> {
         }
     }
 
+    /// For a search that starts once more: `steps` triangles in all may be replaced, and no more
+    /// than the tables hold from now on.
+    pub(crate) fn allow_anew(&mut self, steps: u32) {
+        self.steps = steps.min(self.work.opened.saturating_add(triangles(self.model.tables())));
+    }
+
     /// From now on, `steps` triangles may be replaced.
     pub(crate) fn allow(&mut self, steps: u32) {
         self.work = Work::NONE;

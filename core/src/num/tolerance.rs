@@ -634,8 +634,8 @@ pub const CAPSULE_UNDERFLOW: f32 = 1.0 / (1u64 << 48) as f32;
 pub const CURVE_FAR: f64 = (1u32 << 24) as f64;
 
 /// Rounding of the turn from a segment to a point, in units of [`U64`] times the sizes of its two
-/// products. Proved: 5 (§14). A smaller value loses the guarantee. Where a distance is proved to be
-/// above 0, any value up to 16 leaves no turn unclear.
+/// products. Proved: 5 (§14). Where a distance is proved to be above 0, every turn is far larger, and
+/// nearer points are undecided anyway: a second line of defence. Up to 16 it leaves no turn unclear.
 pub const CURVE_TURN: f64 = 8.0;
 
 // Triboxes

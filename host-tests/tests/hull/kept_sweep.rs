@@ -326,6 +326,23 @@ fn a_queue_of_an_eighth_still_answers_orbits_in_constant_time() {
 
 /// All of the surface is nearly equally far there.
 #[test]
+fn small_steps_with_a_short_queue_end_and_never_lose_the_distance() {
+    let scene = Scene::hull("sphere", icosphere(4), &options(40));
+    let model = scene.model();
+    for entries in [1, 16, 64] {
+        let mut scratch = vec![ScratchEntry::EMPTY; entries];
+        let mut sweep = model.sweep([0.0; 3], &mut scratch).expect("a point");
+        let budget = Budget::EXACT.with_steps(20);
+        let ends = (0..10_000).find(|_| {
+            let near = sweep.closest_point(budget).expect("a budget");
+            assert!(near.distance.lower <= 1.0 && 0.99 <= near.distance.upper, "{near:?}");
+            near.ended != Ended::Steps
+        });
+        assert!(ends.is_some(), "{entries} entries: no end");
+    }
+}
+
+#[test]
 fn the_middle_of_a_sphere_needs_more_than_a_short_queue() {
     let scene = Scene::hull("sphere", icosphere(4), &options(40));
     let model = scene.model();

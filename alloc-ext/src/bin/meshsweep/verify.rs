@@ -91,10 +91,12 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
         let polylines = read_csv(&text, false).map_err(|error| {
             Failure::build(file, BuildError::Curve { file: file.clone(), error })
         })?;
-        let filed = polylines.into_iter().map(|Polyline { points, zone, .. }| FilePolyline {
-            points,
-            is_exclusion: zone == Zone::Exclusion,
-        });
+        let filed =
+            polylines.into_iter().map(|Polyline { points, is_closed, zone }| FilePolyline {
+                is_closed: is_closed || (points.len() > 2 && points.first() == points.last()),
+                is_exclusion: zone == Zone::Exclusion,
+                points,
+            });
         let filed: Vec<FilePolyline> = filed.collect();
         let findings = verify(bytes, Against::Curves(&filed));
         return Ok(Proofs { findings, hint: String::new(), report: None });

@@ -67,12 +67,14 @@ impl<'a, G: Geometry<'a>> Sweep<'_, G> {
                 .min(bound_of(self.front.queue.dropped(), self.moved));
             self.pruned = self.pruned.min(enqueuer.pruned);
             self.best = enqueuer.nearest.instance();
-            // An entry that was lost may be the nearest, so the search starts once more. It does so
-            // while the queue overflows and may keep less.
+            // An entry that was lost may be the nearest, so the search starts once more, while steps
+            // are left. It does so while the queue overflows and may keep less.
             let may_shrink = self.front.queue.dropped() < f32::INFINITY && self.kept > SWEEP_LEAST;
-            if lost < enqueuer.nearest.upper() && (!is_new || may_shrink) {
+            let goes_on = (!is_new || may_shrink) && self.front.work.opened < budget.steps;
+            if lost < enqueuer.nearest.upper() && goes_on {
                 is_new = true;
-                evaluated = enqueuer.nearest.work(Work::NONE).exact;
+                self.front.allow_anew(budget.steps);
+                evaluated = enqueuer.nearest.work(Work::NONE).exact.saturating_add(evaluated);
                 continue;
             }
             let ended = if lost < enqueuer.nearest.upper() { Ended::Scratch } else { ended };
