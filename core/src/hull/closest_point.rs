@@ -81,28 +81,39 @@ pub(super) fn closest_point<'a, G: Geometry<'a> + Copy>(
             }
         }
         let mut front = Front::new(hull, scratch, steps);
-        let mut above = Above::NONE;
-        if tolerance.is_some() {
-            above.begin(&front.model, &mut nearest).ok_or(QueryError::Unchecked)?;
+        ended = match tolerance {
+            None => search(&mut front, &mut nearest, None),
+            Some(within) => search_within(&mut front, &mut nearest, within),
         }
-        ended =
-            search(&mut front, &mut nearest, &mut above, tolerance).ok_or(QueryError::Unchecked)?;
-        if tolerance.is_some() {
-            above.settle(&front, &mut nearest).ok_or(QueryError::Unchecked)?;
-        }
+        .ok_or(QueryError::Unchecked)?;
         work = nearest.work(front.work);
     }
     nearest.settle_unreached(hull).ok_or(QueryError::Unchecked)?;
     Ok(nearest.answer(hull.tables(), &frame, work, ended))
 }
 
+/// A search to a tolerance, which begins with the distance of a vertex of the surface. Apart from
+/// the exact one, which it would make 1.7 % dearer.
+#[inline(never)]
+fn search_within<'a, G: Geometry<'a>>(
+    front: &mut Front<'_, G>,
+    nearest: &mut Nearest,
+    within: [f64; 2],
+) -> Option<Ended> {
+    let mut above = Above::NONE;
+    above.begin(&front.model, nearest)?;
+    let ended = search(front, nearest, Some((within, &mut above)))?;
+    above.settle(front, nearest)?;
+    Some(ended)
+}
+
 /// Refines until no triangle that waits may be nearer than the best one, or until the tolerance is
 /// met.
+#[inline(always)]
 fn search<'a, G: Geometry<'a>>(
     front: &mut Front<'_, G>,
     nearest: &mut Nearest,
-    above: &mut Above,
-    tolerance: Option<[f64; 2]>,
+    mut tolerance: Option<([f64; 2], &mut Above)>,
 ) -> Option<Ended> {
     let error = front.model.surface_error();
     // Least key of the triangles that the tolerance spared.
@@ -114,10 +125,10 @@ fn search<'a, G: Geometry<'a>>(
         let key = f64::from(entry.key());
         let instance = Instance(entry.node());
         let beaten = entry.key() > nearest.limit_f32;
-        let tolerated = tolerance.is_some_and(|within| {
+        let tolerated = tolerance.as_mut().is_some_and(|(within, above)| {
             let bound = key.min(spared);
-            above.improve(front, instance, nearest, (within, bound));
-            nearest.is_within(within, bound, error)
+            above.improve(front, instance, nearest, (*within, bound));
+            nearest.is_within(*within, bound, error)
         });
         if beaten || tolerated {
             if !beaten {
@@ -142,7 +153,7 @@ fn search<'a, G: Geometry<'a>>(
     nearest.lower = nearest.lower.min(spared).min(dropped);
     // Beyond a cut, a triangle that was evaluated later may have widened the interval again.
     let is_met = spared < nearest.upper
-        && tolerance.is_some_and(|within| nearest.is_within(within, spared, error));
+        && tolerance.is_some_and(|(within, _)| nearest.is_within(within, spared, error));
     Some(if dropped < nearest.upper {
         Ended::Scratch
     } else if is_met {
