@@ -125,7 +125,7 @@ impl<'w> Work<'w> {
         let (sections, report) = curve::build(polylines, &options, watch)?;
         let mut built = Built::of(sections.to_bytes());
         built.curve = Some(report);
-        built.opened(|_, _| of_curve(&report).into_iter().collect())
+        built.opened(|_, _| of_curve(&report))
     }
 
     fn mesh(

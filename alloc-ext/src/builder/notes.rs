@@ -20,11 +20,18 @@ fn notes(topic: Topic, texts: impl IntoIterator<Item = String>) -> impl Iterator
     texts.into_iter().map(move |text| Note { topic, text })
 }
 
-/// The curves' points that repeat the one before.
-pub(super) fn of_curve(report: &CurveReport) -> Option<Note> {
+/// The curves' points that repeat the one before, and a fence that crosses itself.
+pub(super) fn of_curve(report: &CurveReport) -> Vec<Note> {
     let points = Counted(report.repeated, "point");
     let text = format!("{points} repeated: kept, as segments without length");
-    (report.repeated > 0).then_some(Note { topic: Topic::Input, text })
+    let repeated = (report.repeated > 0).then_some(text);
+    let crossed = report.crossed.map(|polyline| {
+        format!(
+            "polyline {polyline} crosses itself: inside is what it winds around; between two \
+             polygons belongs a blank line"
+        )
+    });
+    notes(Topic::Input, repeated.into_iter().chain(crossed)).collect()
 }
 
 /// What was read, repaired and moved.

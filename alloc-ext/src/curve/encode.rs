@@ -16,6 +16,7 @@ use meshsweep_core::internal::format::layout::VertexFormat;
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
 use meshsweep_core::{SectionKind, Zone};
+use robust::{Coord, orient2d};
 use std::time::{Duration, Instant};
 
 /// How points are stored.
@@ -33,8 +34,37 @@ pub struct CurveReport {
     pub segments: usize,
     /// Segments without length: points that repeat the point before. They are kept.
     pub repeated: usize,
+    /// The first closed polyline of the plane that crosses itself, if it has no more than
+    /// [`LOOKED_AT`](Self::LOOKED_AT) points.
+    pub crossed: Option<usize>,
     /// Time of the build.
     pub time: Duration,
+}
+
+impl CurveReport {
+    /// Points of a polyline up to which it is looked at whether it crosses itself.
+    pub const LOOKED_AT: usize = 2000;
+}
+
+/// Whether two segments of a closed polyline cross in the plane, by exact predicates.
+fn crosses_itself(polyline: &Polyline) -> bool {
+    let points = &polyline.points;
+    if !polyline.is_closed || points.len() > CurveReport::LOOKED_AT {
+        return false;
+    }
+    let at = |k: usize| {
+        let p = points[k % points.len()];
+        Coord { x: p[0], y: p[1] }
+    };
+    let is_across = |[a, b]: [Coord<f64>; 2], [c, d]: [Coord<f64>; 2]| {
+        let [of_c, of_d] = [orient2d(a, b, c), orient2d(a, b, d)];
+        (of_c > 0.0 && of_d < 0.0) || (of_c < 0.0 && of_d > 0.0)
+    };
+    let segment = |k: usize| [at(k), at(k + 1)];
+    (0..points.len()).any(|i| {
+        let one = segment(i);
+        (i + 2..points.len()).map(segment).any(|s| is_across(one, s) && is_across(s, one))
+    })
 }
 
 /// Stores polylines. Segments keep the numbers of the input. If all points have z = 0, z is not
@@ -111,7 +141,8 @@ pub fn build(
         .filter(|pair| pair[0] == pair[1])
         .count();
     let segments = points.len() - table.len();
-    Ok((sections, CurveReport { segments, repeated, time: started.elapsed() }))
+    let crossed = if is_planar { polylines.iter().position(crosses_itself) } else { None };
+    Ok((sections, CurveReport { segments, repeated, crossed, time: started.elapsed() }))
 }
 
 /// A polyline's byte in the section of zones.

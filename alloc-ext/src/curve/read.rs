@@ -3,6 +3,7 @@
 use crate::error::CurveError;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 use meshsweep_core::Zone;
+use robust::{Coord, orient2d};
 
 /// Points that are joined in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,7 +21,18 @@ struct Columns {
     places: Vec<usize>,
     polyline: Option<usize>,
     zone: Option<usize>,
+    /// Columns of other names, which are skipped.
+    others: Vec<(usize, String)>,
     fields: usize,
+}
+
+/// The words of a column `zone`.
+const ZONES: [(&str, Zone); 2] = [("inclusion", Zone::Inclusion), ("exclusion", Zone::Exclusion)];
+
+/// The zone of a word.
+fn zone_of(text: &[u8]) -> Option<Zone> {
+    let named = ZONES.iter().find(|(name, _)| text.eq_ignore_ascii_case(name.as_bytes()));
+    named.map(|&(_, zone)| zone)
 }
 
 impl Columns {
@@ -30,25 +42,34 @@ impl Columns {
             record.iter().position(|field| field.eq_ignore_ascii_case(name.as_bytes()))
         };
         let places = [Some(place("x")?), Some(place("y")?), place("z")];
-        let places = places.into_iter().flatten().collect();
+        let places: Vec<usize> = places.into_iter().flatten().collect();
         let (polyline, zone) = (place("polyline"), place("zone"));
-        Some(Columns { places, polyline, zone, fields: record.len() })
+        let is_other = |at: &usize| !places.contains(at) && ![polyline, zone].contains(&Some(*at));
+        let name = |at: usize| (at, String::from_utf8_lossy(&record[at]).into_owned());
+        let others = (0..record.len()).filter(is_other).map(name).collect();
+        Some(Columns { places, polyline, zone, others, fields: record.len() })
     }
 
     /// Of a file without a header line, by its first record.
     fn of(record: &ByteRecord) -> Columns {
         let fields = record.len().clamp(2, 3);
-        Columns { places: (0..fields).collect(), polyline: None, zone: None, fields }
+        let places = (0..fields).collect();
+        Columns { places, polyline: None, zone: None, others: Vec::new(), fields }
     }
 
     /// The zone that a record names, if there is a column for it.
     fn zone(&self, record: &ByteRecord, line: u64) -> Result<Option<Zone>, CurveError> {
-        let Some(place) = self.zone else { return Ok(None) };
+        let Some(place) = self.zone else {
+            // Else what is excluded would be included without a word.
+            let is_zone = |at: usize| record.get(at).is_some_and(|text| zone_of(text).is_some());
+            return match self.others.iter().find(|(at, _)| is_zone(*at)) {
+                Some((_, name)) => Err(CurveError::ZoneColumn { line, name: name.clone() }),
+                None => Ok(None),
+            };
+        };
         let Some(text) = record.get(place) else { return Ok(None) };
-        let zones = [("inclusion", Zone::Inclusion), ("exclusion", Zone::Exclusion)];
-        let named = zones.iter().find(|(name, _)| text.eq_ignore_ascii_case(name.as_bytes()));
-        match named {
-            Some((_, zone)) => Ok(Some(*zone)),
+        match zone_of(text) {
+            Some(zone) => Ok(Some(zone)),
             None => {
                 let text = String::from_utf8_lossy(text).into_owned();
                 Err(CurveError::Zone { line, text })
@@ -86,7 +107,8 @@ fn is_header(record: &ByteRecord) -> bool {
 /// of other names are skipped. With `close` each polyline's last point is joined with its first.
 ///
 /// A column `zone` of the header makes zones of the polylines, `inclusion` or `exclusion`. Zones
-/// are closed, and another zone begins a new polyline.
+/// are closed. A line of the other kind begins a new zone, and so does the line after one that
+/// repeats the zone's first point. Two zones of a kind need that, or a blank line between them.
 ///
 /// # Errors
 /// [`CurveError`] names the line.
@@ -125,24 +147,43 @@ pub fn read_csv(bytes: &[u8], close: bool) -> Result<Vec<Polyline>, CurveError> 
         let zone = columns.zone(&record, line)?;
         let named = (columns.polyline.map(|place| record[place].to_vec()), zone);
         if begins || name.as_ref() != Some(&named) {
-            one_point(polylines.last(), last_line)?;
+            complete(polylines.last(), name.as_ref().is_some_and(is_zone), last_line)?;
             let is_closed = close || zone.is_some();
             let zone = zone.unwrap_or_default();
             polylines.push(Polyline { points: Vec::new(), is_closed, zone });
         }
-        (name, begins, last_line) = (Some(named), false, line);
-        polylines.last_mut().expect("one was begun").points.push(point);
+        let points = &mut polylines.last_mut().expect("one was begun").points;
+        // A ring that is back at its first point is complete.
+        let is_ring = zone.is_some() && points.len() > 2 && points.first() == Some(&point);
+        points.push(point);
+        (name, begins, last_line) = (Some(named), is_ring, line);
     }
-    one_point(polylines.last(), last_line)?;
+    complete(polylines.last(), name.as_ref().is_some_and(is_zone), last_line)?;
     if polylines.is_empty() { Err(CurveError::NoPoints) } else { Ok(polylines) }
 }
 
-/// Refuses a polyline whose only point is on `line`.
-fn one_point(polyline: Option<&Polyline>, line: u64) -> Result<(), CurveError> {
+/// Whether a polyline's name and zone are those of a zone.
+fn is_zone((_, zone): &(Option<Vec<u8>>, Option<Zone>)) -> bool {
+    zone.is_some()
+}
+
+/// Refuses a polyline of one point, or a zone without area, whose last point is on `line`.
+fn complete(polyline: Option<&Polyline>, is_zone: bool, line: u64) -> Result<(), CurveError> {
     match polyline {
+        Some(polyline) if is_zone && is_flat(&polyline.points) => {
+            Err(CurveError::FlatZone { line, corners: polyline.points.len() })
+        }
         Some(polyline) if polyline.points.len() < 2 => Err(CurveError::OnePoint { line }),
         _ => Ok(()),
     }
+}
+
+/// Whether all points lie on one line of the plane, by an exact predicate.
+fn is_flat(points: &[[f64; 3]]) -> bool {
+    let coord = |p: &[f64; 3]| Coord { x: p[0], y: p[1] };
+    let Some(a) = points.first().map(coord) else { return true };
+    let Some(b) = points.iter().map(coord).find(|b| (b.x, b.y) != (a.x, a.y)) else { return true };
+    points.iter().all(|p| orient2d(a, b, coord(p)) == 0.0)
 }
 
 #[cfg(test)]
@@ -168,12 +209,23 @@ mod tests {
     #[test]
     fn the_zone_column_makes_closed_polylines_and_begins_new_ones() {
         let text = "zone,x,y\ninclusion,0,0\ninclusion,9,0\ninclusion,9,9\n\
-                    Exclusion,1,1\nexclusion,2,1\n\nEXCLUSION,5,5\nexclusion,6,5\n";
-        let lines = read_csv(text.as_bytes(), false).expect("three zones");
+                    Exclusion,1,1\nexclusion,2,1\nexclusion,2,2\n\nEXCLUSION,5,5\n\
+                    exclusion,6,5\nexclusion,6,6\nexclusion,5,5\nexclusion,7,7\n\
+                    exclusion,8,7\nexclusion,8,8\n";
+        let lines = read_csv(text.as_bytes(), false).expect("four zones");
         let told = lines.iter().map(|line| (line.points.len(), line.is_closed, line.zone));
-        let wanted =
-            [(3, true, Zone::Inclusion), (2, true, Zone::Exclusion), (2, true, Zone::Exclusion)];
+        let wanted = [3, 3, 4, 3].map(|points| (points, true, Zone::Exclusion));
+        let wanted = [&[(3, true, Zone::Inclusion)], &wanted[1..]].concat();
         assert_eq!(told.collect::<Vec<_>>(), wanted);
+        for flat in
+            ["0,0,inclusion\n9,9,inclusion\n", "0,0,inclusion\n1,1,inclusion\n3,3,inclusion\n"]
+        {
+            let text = format!("x,y,zone\n{flat}");
+            let (line, corners) = (flat.lines().count() as u64 + 1, flat.lines().count());
+            assert_eq!(read(&text), Err(CurveError::FlatZone { line, corners }));
+        }
+        let named = CurveError::ZoneColumn { line: 2, name: "type".to_owned() };
+        assert_eq!(read("x,y,type\n0,0,Exclusion\n"), Err(named));
         let bad = CurveError::Zone { line: 2, text: "5001".to_owned() };
         assert_eq!(read("x,y,zone\n0,0,5001\n"), Err(bad));
         let none = CurveError::Zone { line: 3, text: String::new() };

@@ -38,6 +38,20 @@ pub enum CurveError {
         /// What it says.
         text: String,
     },
+    /// A column that is not named zone holds zones.
+    ZoneColumn {
+        /// Where.
+        line: u64,
+        /// The column's name.
+        name: String,
+    },
+    /// The corners of a zone lie on one line, so that it bounds no area.
+    FlatZone {
+        /// Its last line.
+        line: u64,
+        /// Its corners.
+        corners: usize,
+    },
     /// An exclusion zone in memory is not closed.
     OpenZone {
         /// Which polyline.
@@ -76,6 +90,8 @@ impl CurveError {
                 | Self::Fields { .. }
                 | Self::Number { .. }
                 | Self::Zone { .. }
+                | Self::ZoneColumn { .. }
+                | Self::FlatZone { .. }
                 | Self::OnePoint { .. }
         )
     }
@@ -94,6 +110,13 @@ impl fmt::Display for CurveError {
             ),
             Self::Number { line, field, text } => {
                 let text: String = text.chars().take(40).collect();
+                if ["inclusion", "exclusion"].iter().any(|zone| text.eq_ignore_ascii_case(zone)) {
+                    return write!(
+                        f,
+                        "line {line}, field {field}: {text:?} is no number; name the columns in a \
+                         first line: x,y,zone"
+                    );
+                }
                 write!(
                     f,
                     "line {line}, field {field}: {text:?} is no finite number of single precision; \
@@ -104,6 +127,15 @@ impl fmt::Display for CurveError {
                 let text: String = text.chars().take(40).collect();
                 write!(f, "line {line}: {text:?} is no zone; write inclusion or exclusion")
             }
+            Self::ZoneColumn { line, name } => {
+                write!(f, "line {line}: the column {name:?} holds zones; name it zone")
+            }
+            Self::FlatZone { line, corners } => write!(
+                f,
+                "line {line}: a zone of {} ends here that bounds no area; give it three that are \
+                 not on one line",
+                Counted(*corners, "corner")
+            ),
             Self::OpenZone { polyline } => {
                 write!(f, "polyline {polyline} is an exclusion zone and not closed; close it")
             }

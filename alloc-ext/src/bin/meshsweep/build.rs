@@ -60,7 +60,13 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
 fn refuse_options(args: &BuildArgs) -> Option<String> {
     match args.limits.given() {
         Some(option) => {
-            let other = args.chosen_option()?;
+            if args.is_curve() {
+                return Some(format!("{option} is a limit of meshes; leave it out"));
+            }
+            let other = match args.chosen_option()? {
+                "--for" => "--for, or give it one of closest and segment",
+                other => other,
+            };
             Some(format!("{option} chooses structure and dials; leave out {other}"))
         }
         None if args.limits.cpu.is_some() || args.limits.at.is_some() => {

@@ -78,6 +78,8 @@ fn hierarchy(kind: SectionKind) -> &'static str {
         "box tree"
     } else if kind.is_deform() {
         "deformation"
+    } else if kind.is_curve() {
+        "curves"
     } else {
         // The other structures have one section each.
         kind.name()

@@ -54,8 +54,20 @@ pub(super) fn write(out: &mut dyn Write, curve: &Curve<'_>) -> io::Result<()> {
         Counted(curve.scratch_entries(), "scratch entry"),
         scratch_bytes(curve)
     )?;
-    writeln!(out, "  curve error: {}", AtMost(curve.surface_error()))
+    writeln!(out, "  curve error: {}", AtMost(curve.surface_error()))?;
+    let [low, high] = curve.bounds();
+    let size = (0..3).map(|k| f64::from(high[k]) - f64::from(low[k])).fold(0.0, f64::max);
+    if f64::from(curve.surface_error()) > ROUGH * size {
+        writeln!(
+            out,
+            "  far from its origin for its size: points and queries are rounded; subtract an origin"
+        )?;
+    }
+    Ok(())
 }
+
+/// Part of its size by which rounding moves a curve that is far from its origin.
+const ROUGH: f64 = 1.0 / 32_768.0;
 
 pub(super) fn as_json(curve: &Curve<'_>) -> Value {
     json!({
