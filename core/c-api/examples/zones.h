@@ -7,9 +7,14 @@
  * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
  * than 64.
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
+ *   msw_open_curve                  1792 / 1664    1856 / 1792    1792 / 1664    1728 / 1536
+ *   msw_curve_closest_point         1920 / 1856    1984 / 1856    1920 / 1856    1728 / 1600
+ *   msw_curve_within                1280 / 1344    1344 / 1280    1280 / 1344    1088 / 1088
+ *   msw_curve_nearest               1664 / 1472    1664 / 1472    1664 / 1536    1408 / 1280
+ *   msw_curve_signed_distance       2304 / 2240    2304 / 2176    2304 / 2240    2048 / 1920
  *   msw_checksum                     1088 / 896     1088 / 960     1088 / 896      960 / 832
  *   msw_pose_of_quaternion            192 / 256      320 / 448      192 / 256      192 / 320
- *   msw_pose_then                     320 / 512      576 / 832      320 / 512      512 / 768
+ *   msw_pose_then                     640 / 512      832 / 832      640 / 512      704 / 768
  *   msw_pose_inverse                  576 / 448      768 / 768      576 / 448      640 / 640
  *   msw_pose_relative_to              640 / 448      768 / 768      640 / 448      704 / 704
  *   msw_pose_motion                   128 / 128      192 / 192      128 / 128      128 / 128

@@ -8,8 +8,11 @@
 // Bytes of the processor's stack that a question takes, at opt-level "s" / 3. Debug builds
 // take several times as much: core/docs/guide.md tells how to avoid it.
 //                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
-//   open curves                     1600 / 1472    1664 / 1600    1600 / 1472    1536 / 1344
-//   closest point of curves         1728 / 1600    1728 / 1600    1728 / 1600    1472 / 1408
+//   open curves                     1664 / 1536    1728 / 1664    1664 / 1536    1600 / 1408
+//   closest point of curves         1856 / 1728    1856 / 1664    1856 / 1728    1600 / 1472
+//   nearest segments of curves      1472 / 1408    1472 / 1408    1472 / 1472    1280 / 1216
+//   all within of curves            1472 / 1472    1472 / 1408    1472 / 1472    1280 / 1216
+//   signed distance of curves       2112 / 2048    2112 / 1984    2112 / 2048    1856 / 1792
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
 
