@@ -127,7 +127,7 @@ fn a_fence_says_what_it_allows_and_how_far_its_line_is() {
     let zoned = "x,y,zone\n0,0,inclusion\n9,0,inclusion\n9,9,inclusion\n0,9,inclusion\n";
     let zoned = file(&directory, "zoned.csv", zoned);
     let told = refused(&run(["verify", arg(&open), arg(&zoned)]), 3, "open.msw");
-    assert!(told.contains("closed in the file"), "{told}");
+    assert!(told.contains("failed: curve"), "{told}");
 }
 
 #[test]

@@ -82,8 +82,9 @@ pub(super) fn closest_point<'a, G: Geometry<'a> + Copy>(
         }
         let mut front = Front::new(hull, scratch, steps);
         ended = match tolerance {
-            None => search(&mut front, &mut nearest, None),
-            Some(within) => search_within(&mut front, &mut nearest, within),
+            None if APART => search(&mut front, &mut nearest, None),
+            _ if APART => search_apart(&mut front, &mut nearest, tolerance),
+            _ => search_to(&mut front, &mut nearest, tolerance),
         }
         .ok_or(QueryError::Unchecked)?;
         work = nearest.work(front.work);
@@ -92,18 +93,34 @@ pub(super) fn closest_point<'a, G: Geometry<'a> + Copy>(
     Ok(nearest.answer(hull.tables(), &frame, work, ended))
 }
 
-/// A search to a tolerance, which begins with the distance of a vertex of the surface. Apart from
-/// the exact one, which it would make 1.7 % dearer.
+/// Whether the exact search is compiled apart from that to a tolerance. On boards one search for
+/// both makes the exact one up to 1.7 % dearer, and on x86-64 two do so by 1.2 %.
+const APART: bool = !cfg!(target_arch = "x86_64");
+
 #[inline(never)]
-fn search_within<'a, G: Geometry<'a>>(
+fn search_apart<'a, G: Geometry<'a>>(
     front: &mut Front<'_, G>,
     nearest: &mut Nearest,
-    within: [f64; 2],
+    tolerance: Option<[f64; 2]>,
+) -> Option<Ended> {
+    search_to(front, nearest, tolerance)
+}
+
+/// A search that begins with the distance of a vertex of the surface, if there is a tolerance.
+#[inline(always)]
+fn search_to<'a, G: Geometry<'a>>(
+    front: &mut Front<'_, G>,
+    nearest: &mut Nearest,
+    tolerance: Option<[f64; 2]>,
 ) -> Option<Ended> {
     let mut above = Above::NONE;
-    above.begin(&front.model, nearest)?;
-    let ended = search(front, nearest, Some((within, &mut above)))?;
-    above.settle(front, nearest)?;
+    if tolerance.is_some() {
+        above.begin(&front.model, nearest)?;
+    }
+    let ended = search(front, nearest, tolerance.map(|within| (within, &mut above)))?;
+    if tolerance.is_some() {
+        above.settle(front, nearest)?;
+    }
     Some(ended)
 }
 
