@@ -45,7 +45,9 @@ impl Truth {
             let (along, length) = (q - p, p.distance(q));
             let is_near = |&(centre, radius): &(DVec3, f64)| {
                 let part = (along.dot(centre - p) / (length * length)).clamp(0.0, 1.0);
-                !(centre.distance(p + along * part) > radius + 1e-9 * (length + centre.length()))
+                let apart = centre.distance(p + along * part);
+                // Without length the part is no number, and every triangle is looked at.
+                apart.is_nan() || apart <= radius + 1e-9 * (length + centre.length())
             };
             let pairs = self.spheres.iter().zip(&self.triangles);
             let near = pairs.filter(|(sphere, _)| is_near(sphere));

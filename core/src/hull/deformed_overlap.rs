@@ -62,6 +62,7 @@ impl MovedHull<'_, '_> {
 
 /// A hull that deforms, either way.
 #[derive(Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "there is no heap, and one lives at a time")]
 enum Deformed<'a, 'v> {
     Frame(FrameHull<'a>),
     Moved(&'v MovedHull<'a, 'v>),

@@ -64,10 +64,10 @@ fn list<'a, G: Geometry<'a>>(sweep: &mut Sweep<'_, G>, distances: &[f64], within
     let mut order: Vec<f64> = distances.to_vec();
     order.sort_by(f64::total_cmp);
     let mut is_given = vec![false; distances.len()];
-    for rank in 0.. {
+    for nearest in &order {
         let Some(found) = sweep.next_triangle(Budget::EXACT).expect("answers") else { break };
         assert_eq!(found.ended, Ended::Exact);
-        assert!(f64::from(found.distance.lower) <= order[rank] + 1e-13 * scale, "{found:?}");
+        assert!(f64::from(found.distance.lower) <= nearest + 1e-13 * scale, "{found:?}");
         if f64::from(found.distance.lower) > within {
             break;
         }

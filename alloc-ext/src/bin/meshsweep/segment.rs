@@ -53,6 +53,7 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
 
 /// What segments are asked of.
 #[derive(Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "the program makes one")]
 enum Asked<'a> {
     Rest(Engine<'a>),
     /// A mesh at a key frame, the same at rest, and the scratch entries to ask it with.
