@@ -5,8 +5,8 @@ use crate::surface::VertexBits;
 use std::fmt;
 
 /// A structure that answers distances or segments, and the dials that it is built with. `Display`
-/// prints the options with which the program builds it; of a cut level, those of the hierarchy to cut, and
-/// that `cut --level` follows.
+/// prints the options with which the program builds it; of a cut level, those of the hierarchy to
+/// cut, and that `cut --level` follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Recipe {

@@ -7,7 +7,7 @@ use crate::surface::VertexBits;
 use meshsweep_core::Budget;
 use std::fmt;
 
-/// What is asked at the places of a measurement.
+/// The question of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
     /// The closest point. A place is a point, and the error is the width of the distance.
@@ -45,9 +45,9 @@ pub enum How {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Setting {
-    /// What is asked.
+    /// The question.
     pub question: Question,
-    /// What is built.
+    /// The structure, and how it is built.
     pub recipe: Recipe,
     /// When a query may stop.
     pub budget: Budget,

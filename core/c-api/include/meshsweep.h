@@ -922,7 +922,8 @@ int32_t msw_curve_nearest(const msw_curve *curve, const float point[3],
  * MSW_SIDE_INSIDE: the point is inside of an inclusion zone, or there is none, and inside of no
  * exclusion zone. Inside of a zone is what its line winds around, once or more often, in either
  * direction. The distance is negative there. It is that to the nearest line of any zone: within
- * -distance.upper inside, and distance.lower outside, the side does not change. The side is never wrong. It is undecided for
+ * -distance.upper inside, and distance.lower outside, the side does not change. The side is
+ * never wrong. It is undecided for
  * MSW_REASON_ON_SURFACE on a line and closer to it than the surface error, rounding and the
  * tolerances of the budget. Errors: those of msw_curve_check_fence. Cost: that of
  * msw_curve_closest_point, a comparison of integers for each segment of runs of up to 64 of them,

@@ -244,7 +244,8 @@ pub struct CollapseArgs {
     pub priority: Option<Priority>,
     /// Order of planes in a vertex's linear program: violated, shuffled:SEED [default: violated]
     ///
-    /// shuffled alone has the seed 0. violated takes the one that is violated most; shuffled is Seidel's random order.
+    /// shuffled alone has the seed 0. violated takes the one that is violated most;
+    /// shuffled is Seidel's random order.
     #[arg(long, value_name = "ORDER")]
     pub order: Option<Order>,
 }
