@@ -6,6 +6,7 @@ use crate::format::layout::{SectionKind, field};
 use crate::format::{Bytes, Header, OpenError, Section, SectionTable, ok, section};
 use crate::hull::format::{DeformableHull, Hull};
 use crate::query::QueryError;
+use crate::sdf::Sdf;
 use crate::tight::format::TightHulls;
 use crate::tribox::format::Triboxes;
 
@@ -38,7 +39,7 @@ impl<'a> Blob<'a> {
     ///
     /// Firmware with one structure links less code with the structure's own `open`:
     /// [`Bvh::open`], [`Hull::open`], [`DeformableHull::open`], [`TightHulls::open`],
-    /// [`Triboxes::open`], [`Curve::open`].
+    /// [`Triboxes::open`], [`Curve::open`], [`Sdf::open`].
     ///
     /// Cost: linear in the blob, no allocation; once per start.
     ///
@@ -56,6 +57,7 @@ impl<'a> Blob<'a> {
         let has_triboxes = has(SectionKind::Triboxes);
         let has_tight_hulls = has(SectionKind::TightHulls);
         let has_curves = kinds().any(|kind| kind.is_curve() && has(kind));
+        let has_sdf = has(SectionKind::Sdf);
         let deforms = kinds().any(|kind| kind.is_deform() && has(kind));
         if has_bvh {
             Bvh::open(bytes)?;
@@ -69,10 +71,14 @@ impl<'a> Blob<'a> {
         if has_curves {
             Curve::open(bytes)?;
         }
+        if has_sdf {
+            Sdf::open(bytes)?;
+        }
         if deforms {
             DeformableHull::open(bytes)?;
         }
-        if !hull.has_hull() && (has_bvh || has_triboxes || has_tight_hulls || has_curves) {
+        let has_other = has_bvh || has_triboxes || has_tight_hulls || has_curves || has_sdf;
+        if !hull.has_hull() && has_other {
             hull.check_absent()?;
         } else {
             hull.check()?;
@@ -145,6 +151,14 @@ impl<'a> Blob<'a> {
     /// [`QueryError::NotServed`] if the blob was built without them.
     pub fn curve(&self) -> Result<Curve<'a>, QueryError> {
         Curve::view(self.bytes).map_err(|_| QueryError::NO_CURVES)
+    }
+
+    /// The distance field.
+    ///
+    /// # Errors
+    /// [`QueryError::NotServed`] if the blob was built without it.
+    pub fn sdf(&self) -> Result<Sdf<'a>, QueryError> {
+        Sdf::view(self.bytes).map_err(|_| QueryError::NO_SDF)
     }
 
     /// Sections of the blob, in file order, without those of a kind that this version does not

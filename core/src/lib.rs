@@ -41,6 +41,8 @@
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
 //! | how far is a mesh, by a tight hull of few faces; is it within a distance | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart, or farther than a distance; bounds without triangles | [`Triboxes::separation`], [`Triboxes::within_of`], [`Triboxes::distance`], [`Triboxes::clip`] |
+//! | bounds of the distance in some 150 instructions, the side and a direction, from a lattice | [`Sdf::distance`], [`Sdf::distance_and_gradient`], [`Sdf::within`] |
+//! | the same in whole units, without floating point | [`Sdf::distance_in_units`], [`Sdf::gradient_in_units`] |
 //! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`], [`Curve::nearest`], [`Curve::all_within`] |
 //! | inside or outside of a fence of inclusion and exclusion zones, and how far from its line | [`Curve::signed_distance`] |
 //! | the faces of a nested hull | [`Hull::faces`] |
@@ -61,7 +63,7 @@
 //!
 //! # Layers
 //! A folder may use only folders to its left in this line:
-//! `num` ← `geom` ← `format` ← `query` ← {`bvh`, `hull`, `tribox`, `curve`} ← `tight` ← `blob`.
+//! `num` ← `geom` ← `format` ← `query` ← {`bvh`, `hull`, `tribox`, `curve`, `sdf`} ← `tight` ← `blob`.
 //!
 //! | folder | owns |
 //! | --- | --- |
@@ -73,6 +75,7 @@
 //! | `hull` | split tables: levels, the refined hull, outer hits, the sweep, overlap, hulls that deform |
 //! | `tribox` | bounds of eighteen planes, and their hierarchy |
 //! | `curve` | polygonal curves in 2-D and 3-D |
+//! | `sdf` | the distance field: one look-up |
 //! | `tight` | tight hulls, each stored as a box tree |
 //! | `blob` | [`Blob`]: opens, lets each structure check its own sections, hands out views |
 //!
@@ -97,6 +100,7 @@ mod geom;
 mod hull;
 mod num;
 mod query;
+mod sdf;
 mod tight;
 mod tribox;
 
@@ -120,6 +124,7 @@ pub use query::{
     PosedPoint, QueryError, Relation, RoundedPose, Scratch, ScratchEntry, Side, SignedDistance,
     Solid, SolidDistance, TriangleHit, TrianglePair, Undecided, Verdict, Work, link_poses,
 };
+pub use sdf::{FieldDistance, Sdf, SdfKind, UnitDistance};
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{
     Boundary, NodePair, Separation, Tribox, TriboxBound, TriboxCandidates, TriboxError,
@@ -151,6 +156,9 @@ pub mod internal {
     }
     pub mod curve {
         pub use crate::curve::*;
+    }
+    pub mod sdf {
+        pub use crate::sdf::*;
     }
     pub mod tight {
         pub use crate::tight::*;

@@ -31,6 +31,12 @@ pub enum Contradiction {
     CurveRange,
     /// Depth of the nodes of a curve.
     CurveDepth,
+    /// Cells or kind of a distance field.
+    FieldCells,
+    /// Base or step of a distance field's codes.
+    FieldStep,
+    /// Origin or unit of a distance field.
+    FieldUnit,
     /// Size of the section table.
     SectionTableSize,
     /// Bytes after the last section.
@@ -101,6 +107,9 @@ impl core::fmt::Display for Contradiction {
             Self::CurveGrid => "grid of a curve out of range",
             Self::CurveRange => "scale, error or box of a curve out of range",
             Self::CurveDepth => "depth of the nodes of a curve",
+            Self::FieldCells => "cells or kind of the distance field",
+            Self::FieldStep => "base or step of the distance field's codes",
+            Self::FieldUnit => "origin or unit of the distance field",
             Self::SectionTableSize => "size of the section table",
             Self::BytesAfterSections => "bytes after the last section",
             Self::EmptyTree => "an empty tree",

@@ -86,11 +86,13 @@ pub enum SectionKind {
     TreeSideless = 26,
     /// For each polyline of the curves which side of it is allowed.
     CurveZones = 27,
+    /// The distance field: codes of a lattice's corners, and the errors of its cells.
+    Sdf = 28,
 }
 
 impl SectionKind {
     /// All kinds, in the order in which a writer emits them.
-    pub const ALL: [SectionKind; 26] = [
+    pub const ALL: [SectionKind; 27] = [
         SectionKind::Levels,
         SectionKind::Vertices,
         SectionKind::BaseTriangles,
@@ -117,6 +119,7 @@ impl SectionKind {
         SectionKind::CurveZones,
         SectionKind::VertexNumbers,
         SectionKind::KeyFrames,
+        SectionKind::Sdf,
     ];
 
     /// The kind with this number.
@@ -156,6 +159,11 @@ impl SectionKind {
         matches!(self, SectionKind::Curves | SectionKind::CurveZones)
     }
 
+    /// Whether the section is the distance field.
+    pub fn is_sdf(self) -> bool {
+        self == SectionKind::Sdf
+    }
+
     /// The newest minor version: the one that has all kinds.
     pub fn newest_minor() -> u16 {
         Self::ALL.iter().map(|kind| kind.minor()).max().unwrap_or(VERSION_MINOR)
@@ -164,6 +172,7 @@ impl SectionKind {
     /// The first minor version with this kind.
     pub fn minor(self) -> u16 {
         match self {
+            SectionKind::Sdf => 5,
             SectionKind::CurveZones => 4,
             SectionKind::TreeTurned | SectionKind::TreeSideless => 3,
             SectionKind::TreeMoments => 2,
@@ -179,6 +188,7 @@ impl SectionKind {
             SectionKind::TreeMoments => BuildFor::Winding,
             SectionKind::Triboxes => BuildFor::Triboxes,
             SectionKind::TightHulls => BuildFor::Tight,
+            SectionKind::Sdf => BuildFor::Sdf,
             _ if self.is_curve() => BuildFor::Curve,
             _ if self.is_deform() => BuildFor::Deform,
             _ if self.is_hull() => BuildFor::Hull,
@@ -215,6 +225,7 @@ impl SectionKind {
             SectionKind::TreeTurned => "tree turned triangles",
             SectionKind::TreeSideless => "tree sideless triangles",
             SectionKind::CurveZones => "curve zones",
+            SectionKind::Sdf => "distance field",
         }
     }
 }
@@ -242,6 +253,8 @@ pub enum BuildFor {
     Deform,
     /// Moments of the box tree's nodes.
     Winding,
+    /// The distance field.
+    Sdf,
 }
 
 impl core::fmt::Display for BuildFor {
@@ -256,6 +269,7 @@ impl core::fmt::Display for BuildFor {
             BuildFor::Curve => "curve",
             BuildFor::Deform => "deform",
             BuildFor::Winding => "winding",
+            BuildFor::Sdf => "sdf",
         })
     }
 }

@@ -30,6 +30,7 @@ pub enum QueryError {
     ///   [`Solid`](crate::Solid) 2^30 grid units from the grid's origin, and for its radius;
     /// - [`Scene`](crate::Scene): two models that are farther from each other than f32 reaches;
     /// - [`Triboxes`](crate::Triboxes): [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
+    /// - [`Sdf`](crate::Sdf): 2^60 of its units from the field, in whole units 2^28;
     /// - a [`Joint`](crate::Joint) that turns: 8192 radians.
     OutOfDomain,
     /// A pose cannot be computed with. One of these holds:
@@ -102,6 +103,7 @@ impl QueryError {
         QueryError::NotServed { build_for: BuildFor::Tight };
     pub(crate) const NO_DEFORM: QueryError = QueryError::NotServed { build_for: BuildFor::Deform };
     pub(crate) const NO_CURVES: QueryError = QueryError::NotServed { build_for: BuildFor::Curve };
+    pub(crate) const NO_SDF: QueryError = QueryError::NotServed { build_for: BuildFor::Sdf };
 }
 
 impl core::fmt::Display for QueryError {

@@ -1,0 +1,185 @@
+//! The questions of the distance field in input units.
+
+use super::format::{Sdf, SdfKind};
+use super::place::Place;
+use super::value::SLOPE_BITS;
+use crate::num::{each, greater, lesser, sqrt_approx};
+use crate::query::{Interval, QueryError, Side, Undecided, Verdict};
+
+/// Bounds of the distance of a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub struct FieldDistance {
+    /// The distance to the input mesh, input units: of the kind that [`Sdf::kind`] tells.
+    pub distance: Interval,
+    /// The side of the point, where the interval tells it.
+    pub side: Side,
+}
+
+/// Units that a distance may change while a point goes to the nearest place: half a unit and a
+/// sixteenth along each axis are less than 1.
+const PLACE: i32 = 1;
+
+/// The same of a point outside: its place may be a unit within the field, and how far beyond the
+/// field it is, is known to 9/16 of a unit. Both along three axes: less than 2.71.
+const BEYOND: f32 = 3.0;
+
+/// Part of a length that is lost in f32: the unit and two products.
+const ROUNDED: f32 = 4.0 * f32::EPSILON;
+
+/// Part of the length of a vector beyond the field that is lost in f32: its entries, their squares,
+/// two sums, the root.
+const ROUNDED_BEYOND: f32 = 8.0 * f32::EPSILON;
+
+/// Of a gradient's entry, 2^-15.
+const SLOPE: f32 = 1.0 / (1u32 << SLOPE_BITS) as f32;
+
+impl Sdf<'_> {
+    /// Bounds of the distance of `point` (input units), and its side.
+    ///
+    /// The interval contains the distance to the input mesh in real arithmetic, of the field's
+    /// [`kind`](Sdf::kind): signed distances are negative inside, and the distance to a solid is 0
+    /// inside. If the side of a point of a signed field is not certain, the interval contains the
+    /// distance with both signs. Side: `Outside` if the lower end is above 0, `Inside` if the upper
+    /// end is below 0; else undecided for [`OnSurface`](Undecided::OnSurface). A field of kind
+    /// [`Surface`](SdfKind::Surface) tells no side: [`OpenMesh`](Undecided::OpenMesh).
+    ///
+    /// Outside of the field the interval is wider: the distance from the field is added to that at
+    /// the nearest place of it.
+    ///
+    /// Cost: one look-up, the same for every point of the field; no scratch memory. Without
+    /// floating point the conversions cost five times the look-up:
+    /// [`distance_in_units`](Self::distance_in_units) needs none. Source: no paper; cells with
+    /// proved errors are told in `core/DESIGN.md`, "Distance field".
+    ///
+    /// # Errors
+    /// [`QueryError::NotFinite`]; [`QueryError::OutOfDomain`] farther than 2^60 units from the
+    /// field.
+    #[inline(never)]
+    pub fn distance(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
+        let [lower, upper] = match self.place(point)? {
+            Place::Within(place) => {
+                let [lower, upper] = self.value(place)?;
+                let lower = lower.wrapping_sub(PLACE) as f32;
+                [self.down(lower), self.up(upper.wrapping_add(PLACE) as f32)]
+            }
+            Place::Beyond(place, beyond) => {
+                let [lower, upper] = bounds_beyond(self.value(place)?, beyond);
+                [lesser(self.down(lower), f32::MAX), self.up(upper)]
+            }
+        };
+        let lower = if self.kind == SdfKind::Signed { lower } else { greater(0.0, lower) };
+        Ok(FieldDistance { distance: Interval { lower, upper }, side: self.side(lower, upper) })
+    }
+
+    /// [`distance`](Self::distance), and the gradient at the point: the direction in which the
+    /// distance rises the most, of a length near 1.
+    ///
+    /// The gradient is that of the trilinear function, continuous along a cell's sides alone. It
+    /// carries no guarantee: use it as a direction, of a force or of a step. Outside of the field
+    /// it leads away from where the nearest place of the field sees the surface.
+    ///
+    /// Cost: two look-ups.
+    ///
+    /// # Errors
+    /// Those of [`distance`](Self::distance).
+    #[inline(never)]
+    pub fn distance_and_gradient(
+        &self,
+        point: [f32; 3],
+    ) -> Result<(FieldDistance, [f32; 3]), QueryError> {
+        let found = self.distance(point)?;
+        let at = |place| -> Result<[f32; 3], QueryError> {
+            Ok(each(self.slopes(place)?, |slope| slope as f32 * SLOPE))
+        };
+        let gradient = match self.place(point)? {
+            Place::Within(place) => at(place)?,
+            Place::Beyond(place, beyond) => {
+                let [_, far] = self.value(place)?;
+                away(beyond, far as f32, at(place)?)
+            }
+        };
+        Ok((found, gradient))
+    }
+
+    /// Whether the mesh is at most `distance` from `point`, both in input units. Of a field of kind
+    /// [`Solid`](SdfKind::Solid) the mesh with its inside: `No` only outside.
+    ///
+    /// Undecided for [`Resolution`](Undecided::Resolution) if the interval of
+    /// [`distance`](Self::distance) contains `distance`. For collision avoidance, treat undecided as
+    /// `Yes`.
+    ///
+    /// Cost: that of [`distance`](Self::distance).
+    ///
+    /// # Errors
+    /// Those of [`distance`](Self::distance); [`QueryError::Tolerance`] if `distance` is negative,
+    /// NaN or infinite.
+    #[inline(never)]
+    pub fn within(&self, point: [f32; 3], distance: f32) -> Result<Verdict, QueryError> {
+        if !(distance >= 0.0 && distance.is_finite()) {
+            return Err(QueryError::Tolerance);
+        }
+        let Interval { lower, upper } = self.distance(point)?.distance;
+        Ok(if lower > distance || upper < -distance {
+            Verdict::No
+        } else if upper <= distance && lower >= -distance {
+            Verdict::Yes
+        } else {
+            Verdict::Undecided(Undecided::Resolution)
+        })
+    }
+
+    /// A number of units in input units, not above it.
+    #[inline(always)]
+    fn down(&self, units: f32) -> f32 {
+        let length = units * self.unit;
+        length - length.abs() * ROUNDED
+    }
+
+    /// A number of units in input units, not below it.
+    #[inline(always)]
+    fn up(&self, units: f32) -> f32 {
+        let length = units * self.unit;
+        length + length.abs() * ROUNDED
+    }
+
+    #[inline(always)]
+    fn side(&self, lower: f32, upper: f32) -> Side {
+        if self.kind == SdfKind::Surface {
+            Side::Undecided(Undecided::OpenMesh)
+        } else if lower > 0.0 {
+            Side::Outside
+        } else if upper < 0.0 {
+            Side::Inside
+        } else {
+            Side::Undecided(Undecided::OnSurface)
+        }
+    }
+}
+
+/// Bounds of the distance of a point outside of the field, from those at the nearest place of the
+/// field and from how far it is beyond.
+///
+/// The mesh lies in the field, and the field is convex. So the way from the point to the nearest
+/// place, and from there to any point of the mesh, turn by a right angle or less: the distance is
+/// at least the root of the sum of both squares. It is at most the sum.
+#[cold]
+#[inline(never)]
+fn bounds_beyond([lower, upper]: [i32; 2], [x, y, z]: [f32; 3]) -> [f32; 2] {
+    let near = lower.max(0) as f32;
+    let square = x * x + y * y + z * z;
+    let [far, way] = [sqrt_approx(square + near * near), sqrt_approx(square)];
+    [far - (far * ROUNDED_BEYOND + BEYOND), way + (upper as f32 + (way * ROUNDED_BEYOND + BEYOND))]
+}
+
+/// The direction from a surface that lies `far` below the nearest place of the field along its
+/// gradient, to a point that is so far beyond that place.
+#[cold]
+#[inline(never)]
+fn away(beyond: [f32; 3], far: f32, [a, b, c]: [f32; 3]) -> [f32; 3] {
+    let [x, y, z] = beyond;
+    let [x, y, z] = [x + far * a, y + far * b, z + far * c];
+    let length = greater(sqrt_approx(x * x + y * y + z * z), 1.0);
+    [x / length, y / length, z / length]
+}
