@@ -23,10 +23,11 @@ const BARE: [&str; 18] = [
     "size_triboxes",
     "size_tight",
     "size_curve",
+    "size_sdf",
 ];
 
 /// Images that run.
-const RUNNING: [&str; 10] = [
+const RUNNING: [&str; 11] = [
     "ask",
     "robot",
     "suite_hull",
@@ -36,6 +37,7 @@ const RUNNING: [&str; 10] = [
     "suite_triboxes",
     "suite_tight",
     "suite_curve",
+    "suite_sdf",
     "suite_deform",
 ];
 

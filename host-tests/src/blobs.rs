@@ -1,5 +1,5 @@
 //! The blobs that the firmware images are asked about: hull hierarchies in every coordinate
-//! format, whole and cut, box trees, triboxes, tight hulls and curves.
+//! format, whole and cut, box trees, triboxes, tight hulls, curves and a distance field.
 
 use std::fs;
 use std::path::Path;
@@ -12,14 +12,15 @@ use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Blob as Opened, Hull, ScratchEntry};
 use meshsweep_suite::ask::{
-    Refused, apart, curve, deform, hull, hull_moving, tight, tree, triboxes,
+    Refused, apart, curve, deform, hull, hull_moving, sdf, tight, tree, triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Kind, Observer, Plan, Recorder, Subject, run};
 
 use crate::generate::{Triangles, bracket, groove_block, torus};
 use crate::golden::{
-    bending_torus, bracket_hulls, fence_curves, tool_path_curve, torus_sieve, torus_triboxes,
+    bending_torus, bracket_hulls, fence_curves, groove_field, tool_path_curve, torus_sieve,
+    torus_triboxes,
 };
 
 /// A blob of the images.
@@ -61,11 +62,13 @@ pub enum Blob {
     ToolPath,
     /// The hull of a torus that bends.
     Bend,
+    /// The distance field of the block with a slot.
+    Field,
 }
 
 impl Blob {
     /// All blobs.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Torus,
         Self::Bracket,
         Self::Grid16,
@@ -83,6 +86,7 @@ impl Blob {
         Self::Fence,
         Self::ToolPath,
         Self::Bend,
+        Self::Field,
     ];
 
     /// The file's name without its extension.
@@ -106,6 +110,7 @@ impl Blob {
             Self::Fence => "fence",
             Self::ToolPath => "tool_path",
             Self::Bend => "bend",
+            Self::Field => "field",
         }
     }
 
@@ -137,6 +142,7 @@ impl Blob {
             Self::Fence => Ok(fence_curves()),
             Self::ToolPath => Ok(tool_path_curve()),
             Self::Bend => Ok(bending_torus()),
+            Self::Field => Ok(groove_field()),
             Self::SoupTree => Ok(box_tree(soup(), &default.with_cull(true))),
         }
     }
@@ -202,8 +208,8 @@ pub fn write(folder: &Path) -> Result<(), String> {
 }
 
 /// What an image should print of a blob: the suite's answers on this machine. The suite asks the
-/// blob's box tree if there is one, else its triboxes, its tight hulls, its curves, its hull that
-/// deforms or its hull hierarchy.
+/// blob's box tree if there is one, else its triboxes, its tight hulls, its curves, its distance
+/// field, its hull that deforms or its hull hierarchy.
 ///
 /// # Errors
 /// The core's refusal.
@@ -219,6 +225,9 @@ pub fn expected(blob: &[u8]) -> Result<String, String> {
     }
     if ran == Err(Refused::NO_SECTION) {
         ran = run::<curve::Curve<'_>>(blob, plan, &mut curve::Scratch::new(), &mut lines);
+    }
+    if ran == Err(Refused::NO_SECTION) {
+        ran = run::<sdf::Sdf<'_>>(blob, plan, &mut sdf::Scratch::new(), &mut lines);
     }
     if ran == Err(Refused::NO_SECTION) {
         let scratch = &mut deform::Scratch::new();

@@ -42,6 +42,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
         ("torus", &triboxes),
         ("hulls", &tight),
         ("fence", &fence),
+        ("field", &groove_field()),
         ("bend", &bend),
     ];
     for (name, blob) in blobs {
@@ -62,6 +63,12 @@ pub fn write(folder: &Path) -> Result<(), String> {
 pub fn bracket_model(folder: &Path) -> Result<Vec<u8>, String> {
     let subject = workload::Subject::load(&folder.join("bracket.stl"))?;
     subject.build_with(&BuildOptions::default())
+}
+
+/// The distance field of the block with a slot.
+#[must_use]
+pub fn groove_field() -> Vec<u8> {
+    crate::generate::fields::any(1, meshsweep_core::SdfKind::Signed, [19, 20, 18], 0.0625)
 }
 
 /// The hierarchy for sweeps of a small torus with a hole in place of every fifth triangle.

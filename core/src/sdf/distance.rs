@@ -167,10 +167,11 @@ impl Sdf<'_> {
 #[cold]
 #[inline(never)]
 fn bounds_beyond([lower, upper]: [i32; 2], [x, y, z]: [f32; 3]) -> [f32; 2] {
-    let near = lower.max(0) as f32;
+    // Outside of the field no distance is negative.
+    let [near, upper] = [lower.max(0) as f32, upper.max(0) as f32];
     let square = x * x + y * y + z * z;
     let [far, way] = [sqrt_approx(square + near * near), sqrt_approx(square)];
-    [far - (far * ROUNDED_BEYOND + BEYOND), way + (upper as f32 + (way * ROUNDED_BEYOND + BEYOND))]
+    [far - (far * ROUNDED_BEYOND + BEYOND), way + (upper + (way * ROUNDED_BEYOND + BEYOND))]
 }
 
 /// The direction from a surface that lies `far` below the nearest place of the field along its

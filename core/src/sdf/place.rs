@@ -30,7 +30,7 @@ impl Sdf<'_> {
         if x >= 0.0 && y >= 0.0 && z >= 0.0 && a < width && b < depth && c < height {
             return Ok(Place::Within(whole));
         }
-        self.beyond([x, y, z])
+        self.beyond(point, [x, y, z])
     }
 
     /// The units of a point, in f32. Truncated, they are rounded to nearest.
@@ -42,8 +42,8 @@ impl Sdf<'_> {
 
     #[cold]
     #[inline(never)]
-    fn beyond(&self, units: [f32; 3]) -> Result<Place, QueryError> {
-        if units.iter().any(|x| x.is_nan()) {
+    fn beyond(&self, point: [f32; 3], units: [f32; 3]) -> Result<Place, QueryError> {
+        if !point.iter().all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
         }
         if units.iter().any(|x| x.abs() > FARTHEST) {

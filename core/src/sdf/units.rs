@@ -73,8 +73,8 @@ impl Sdf<'_> {
             sum = beyond.wrapping_add(sum);
         }
         let [lower, upper] = self.value(nearest)?;
-        // The nearest place may be a unit within the field along each axis: a diagonal below 2.
+        // Outside of the field no distance is negative. The nearest place may be a unit within the field along each axis: a diagonal below 2.
         let lower = lower.wrapping_sub(2).max(greatest.wrapping_sub(1));
-        Ok(UnitDistance { lower, upper: upper.wrapping_add(sum) })
+        Ok(UnitDistance { lower, upper: upper.max(0).wrapping_add(sum) })
     }
 }

@@ -12,6 +12,7 @@ mod deform;
 mod hull;
 mod input;
 mod mesh;
+mod sdf;
 mod suite;
 mod tight;
 mod tree;
@@ -24,6 +25,7 @@ pub use curves::{ask_curve, curve_seeds};
 pub use deform::deform_seeds;
 pub use hull::seeds;
 pub use input::random_input;
+pub use sdf::{ask_sdf, sdf_seeds};
 pub use tight::{ask_tight, tight_seeds};
 pub use tree::tree_seeds;
 pub use triboxes::{ask_triboxes, triboxes_seeds};
@@ -54,6 +56,7 @@ targets! {
     tight: tight;
     curves: curves;
     deform: deform;
+    sdf: sdf;
     mesh: mesh;
     build: build;
 }

@@ -10,6 +10,7 @@ pub mod corpus;
 pub mod curves;
 pub mod evil;
 pub mod extremes;
+pub mod fields;
 
 pub mod defects;
 mod extrude;

@@ -127,6 +127,14 @@ kinds! {
     MovedOverlap = 44, "moved_overlap";
     /// Closest point in f64 from near the surface.
     ClosestPrecise = 42, "closest_precise";
+    /// The distance of a point of a field, in input units.
+    FieldDistance = 45, "field_distance", tabled;
+    /// The distance of a point of a field, in whole units.
+    FieldUnits = 46, "field_units", tabled;
+    /// The distance of a point of a field, and the gradient.
+    FieldGradient = 47, "field_gradient", tabled;
+    /// The distance of a place far from a field, in whole units.
+    FieldBeyond = 48, "field_beyond";
 }
 
 impl Kind {

@@ -133,6 +133,12 @@ pub const QUESTIONS: &[Question] = &[
     question("open triboxes", "triboxes", "triboxes::open", &[]),
     question("triboxes apart", "triboxes", "triboxes::reject", &[Kind::TriboxesApart]),
     question("within of triboxes", "triboxes", "triboxes::within", &[Kind::TriboxesWithin]),
+    question("open a distance field", "sdf", "sdf::open", &[]),
+    question("distance of a field", "sdf", "sdf::distance", &[Kind::FieldDistance, Kind::Signed]),
+    question("distance of a field in units", "sdf", "sdf::in_units", &[Kind::FieldUnits])
+        .with_variants(&[Kind::FieldBeyond]),
+    question("distance and gradient of a field", "sdf", "sdf::gradient", &[Kind::FieldGradient]),
+    question("within of a field", "sdf", "sdf::is_within", &[Kind::Within]),
     question("open curves", "curve", "curve::open", &[]),
     question(
         "closest point of curves",
@@ -160,6 +166,7 @@ pub const SIZES: &[(&str, &str)] = &[
     ("tight", "open tight hulls, within"),
     ("triboxes", "open triboxes, apart"),
     ("curve", "open curves, closest point"),
+    ("sdf", "open a distance field, distance"),
     ("open", "open a hull hierarchy"),
     ("closest", "open a hull hierarchy, closest point"),
     ("segment", "open a hull hierarchy, first hit"),

@@ -36,17 +36,20 @@ const TRIBOXES: Blob = Blob { name: "triboxes", image: "suite_triboxes" };
 pub const APART: Blob = Blob { name: "apart", image: "suite_apart" };
 const MOVING: Blob = Blob { name: "moving", image: "suite_moving" };
 const DEFORM: Blob = Blob { name: "bend", image: "suite_deform" };
+const FIELD: Blob = Blob { name: "field", image: "suite_sdf" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
 
 impl Blob {
     /// The blobs whose costs are reported for a part with so much flash: hull hierarchy and box
-    /// tree of one mesh, triboxes, tight hulls, and a curve.
+    /// tree of one mesh, triboxes, tight hulls, a curve, and a distance field.
     #[must_use]
-    pub const fn standard(flash: Flash) -> [Self; 5] {
+    pub const fn standard(flash: Flash) -> [Self; 6] {
         match flash {
-            Flash::Small => [hull("torus"), tree("torus_tree"), TRIBOXES, TIGHT, curve("fence")],
+            Flash::Small => {
+                [hull("torus"), tree("torus_tree"), TRIBOXES, TIGHT, curve("fence"), FIELD]
+            }
             Flash::Large => {
-                [hull("bracket"), tree("bracket_tree"), TRIBOXES, TIGHT, curve("tool_path")]
+                [hull("bracket"), tree("bracket_tree"), TRIBOXES, TIGHT, curve("tool_path"), FIELD]
             }
         }
     }

@@ -12,7 +12,7 @@ use core::hint::black_box;
 
 use bare::Input;
 use meshsweep_suite::ask::{
-    Asked, apart, curve, deform, hull, hull_moving, joints, tight, tree, tribox, triboxes,
+    Asked, apart, curve, deform, hull, hull_moving, joints, sdf, tight, tree, tribox, triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Ends, Motion, Place, Point};
@@ -99,6 +99,7 @@ subjects! {
     ask_tight: tight::Hulls<'t>;
     ask_deform: deform::DeformableHull<'t>;
     ask_curve: curve::Curve<'t>;
+    ask_sdf: sdf::Sdf<'t>;
 }
 
 /// Opening without a check of the records.

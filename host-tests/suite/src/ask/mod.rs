@@ -62,6 +62,7 @@ pub mod hull_moving;
 pub mod joints;
 pub mod placed;
 pub mod robot;
+pub mod sdf;
 pub mod tight;
 pub mod tree;
 pub mod tribox;
