@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::{env, fs};
 
 /// Images without a runtime: linked by `bare.x`, never started.
-const BARE: [&str; 18] = [
+const BARE: [&str; 19] = [
     "proof",
     "size_empty",
     "size_open",

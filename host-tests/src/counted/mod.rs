@@ -42,8 +42,9 @@ pub fn place(fixtures: &Path, folder: &Path, questions: &[&str]) -> Result<(), S
 /// A question that is not at places, or a blob that is missing or refused.
 pub fn lay(fixtures: &Path, question: &str, queries: usize, file: &Path) -> Result<String, String> {
     use meshsweep_counted::placed::{ask, expected};
-    let laid = placed::lay(fixtures, question, queries)
-        .ok_or_else(|| format!("`{question}` is not: bvh, sweep or refine BLOB ..."))??;
+    let laid = placed::lay(fixtures, question, queries).ok_or_else(|| {
+        format!("`{question}` is not: bvh, sweep, refine, field or units BLOB ...")
+    })??;
     std::fs::write(file, &laid).map_err(|error| format!("{}: {error}", file.display()))?;
     Ok(format!("{}\n{}", ask(&laid, queries)?, expected(&laid, queries)?))
 }

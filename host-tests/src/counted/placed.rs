@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use meshsweep::mesh::Mesh;
-use meshsweep_core::{Blob, Budget, Hull, VertIdx};
+use meshsweep_core::{Blob, Budget, Hull, Sdf, VertIdx};
 use meshsweep_suite::ask::placed::{self, Question};
 
 use crate::workload::{Points, Subject, points};
@@ -23,6 +23,8 @@ const STEP: f32 = 1e-3;
 ///   diagonal.
 /// - `refine BLOB RADIUS ERROR`: updates for a ball that runs from vertex to vertex of the base
 ///   hull, by a thousandth of the diagonal each; radius and error are parts of the diagonal.
+/// - `field BLOB`, `units BLOB`: the distance of a field at points within it, in input units and in
+///   whole units.
 ///
 /// # Errors
 /// A blob that is missing or refused, or numbers that are none.
@@ -56,6 +58,16 @@ pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u
             let question = Question::Refine(part(radius)?, part(error)?);
             Ok(written(question, &bytes, &[], &walk(along_base(&hull), STEP * diagonal, count)))
         }),
+        ["field", blob] => read(blob).and_then(|bytes| {
+            let field = of(&bytes, Blob::sdf)?;
+            Ok(written(Question::Field, &bytes, &[], &in_field(&field, count)))
+        }),
+        ["units", blob] => read(blob).and_then(|bytes| {
+            let field = of(&bytes, Blob::sdf)?;
+            let wholes = in_field(&field, count).into_iter().filter_map(|p| field.units_of(p).ok());
+            let places: Vec<_> = wholes.map(|whole| whole.map(|x| x as f32)).collect();
+            Ok(written(Question::FieldInUnits, &bytes, &[], &places))
+        }),
         _ => return None,
     };
     Some(laid)
@@ -77,6 +89,14 @@ fn diagonal([least, greatest]: [[f32; 3]; 2]) -> f32 {
 fn far(bounds: [[f32; 3]; 2], count: usize) -> Vec<[f32; 3]> {
     let corners = Subject::of("box", Mesh::new(bounds.to_vec(), Vec::new()));
     points(&corners, Points::Far, count)
+}
+
+/// Points of a field's box.
+fn in_field(field: &Sdf<'_>, count: usize) -> Vec<[f32; 3]> {
+    let [least, greatest] = field.bounds().map(Vec3::from_array);
+    let (middle, half) = (least.midpoint(greatest), (greatest - least) / 4.0);
+    // Far points are those of the doubled box.
+    far([(middle - half).to_array(), (middle + half).to_array()], count)
 }
 
 /// The first vertex of the base hull, then the others from the last to the first, again and again.

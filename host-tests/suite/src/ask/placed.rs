@@ -6,8 +6,9 @@
 use core::mem::size_of;
 
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Decided, Facing, FirstHit, Focus, Hint, Hull,
-    Pose, QueryError, RefinedHull, Refinement, ScratchEntry, Separation, SplitChange, TriboxBound,
+    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Decided, Facing, FieldDistance, FirstHit,
+    Focus, Hint, Hull, Pose, QueryError, RefinedHull, Refinement, ScratchEntry, Separation,
+    SplitChange, TriboxBound, UnitDistance,
 };
 
 use super::{Refused, timed};
@@ -44,6 +45,10 @@ pub enum Question {
     FirstHit(Budget),
     /// The hull hierarchy's first hit, likewise.
     FirstHitOfHull(Budget),
+    /// The distance of a field.
+    Field,
+    /// The same in whole units. The numbers of a place are whole.
+    FieldInUnits,
 }
 
 impl Question {
@@ -65,6 +70,8 @@ impl Question {
             Self::PairOfTriboxes(distance) => [10, distance.to_bits(), 0, 0],
             Self::FirstHit(budget) => of(11, budget),
             Self::FirstHitOfHull(budget) => of(12, budget),
+            Self::Field => [13, 0, 0, 0],
+            Self::FieldInUnits => [14, 0, 0, 0],
         }
     }
 
@@ -95,6 +102,8 @@ impl Question {
             10 => Self::PairOfTriboxes(first),
             11 => Self::FirstHit(budget),
             12 => Self::FirstHitOfHull(budget),
+            13 => Self::Field,
+            14 => Self::FieldInUnits,
             _ => return None,
         })
     }
@@ -200,6 +209,10 @@ pub enum Answer {
     Farther(Separation),
     /// A first hit.
     Hit(FirstHit),
+    /// The distance of a field.
+    Field(FieldDistance),
+    /// The same in whole units.
+    Units(UnitDistance),
     /// A refusal.
     Refused(QueryError),
 }
@@ -222,6 +235,8 @@ impl Answer {
                 super::how(fold, answer.ended);
             }
             Self::Hit(hit) => super::segment_hit(fold, hit),
+            Self::Field(found) => super::sdf::field_distance(fold, found),
+            Self::Units(found) => super::sdf::unit_distance(fold, *found),
             Self::Refused(error) => super::refusal(fold, *error),
         }
     }
@@ -319,6 +334,17 @@ pub fn ask<'t>(
             let ask = |[a, b]: [_; 2], queue: &mut [_]| hull.first_hit(a, b, budget, queue);
             let entries = hull.scratch_entries();
             by_entries(&mut memory.entries, entries, asking.at(segments), ask, Answer::Hit)
+        }
+        Question::Field => {
+            let field = blob.sdf().map_err(|_| Refused::NO_SECTION)?;
+            asking.each(|place| field.distance(place), Answer::Field);
+            Ok(0)
+        }
+        Question::FieldInUnits => {
+            let field = blob.sdf().map_err(|_| Refused::NO_SECTION)?;
+            let wholes = asking.places.clone().map(|[x, y, z]| [x as i32, y as i32, z as i32]);
+            asking.at(wholes).each(|whole| field.distance_in_units(whole), Answer::Units);
+            Ok(0)
         }
         Question::KeptSweep(budget) => kept_sweep(&hull(&blob)?, budget, memory, asking),
         Question::Refine(radius, error) => refine(&hull(&blob)?, (radius, error), memory, asking),

@@ -1,7 +1,7 @@
 //! Questions to the distance field of a blob.
 
 pub use meshsweep_core::Sdf;
-use meshsweep_core::{FieldDistance, QueryError, Side};
+use meshsweep_core::{FieldDistance, QueryError, Side, UnitDistance};
 
 use super::{Asked, Refused, Subject, refusal, verdict};
 use crate::fold::Fold;
@@ -89,17 +89,24 @@ fn within(field: &Sdf<'_>, [x, y, z]: Point) -> Point {
     [drawn(x, a, d), drawn(y, b, e), drawn(z, c, f)]
 }
 
+pub(super) fn field_distance(fold: &mut Fold, found: &FieldDistance) {
+    fold.f32(found.distance.lower);
+    fold.f32(found.distance.upper);
+    fold.word(match found.side {
+        Side::Outside => 1,
+        Side::Inside => 2,
+        _ => 0,
+    });
+}
+
+pub(super) fn unit_distance(fold: &mut Fold, found: UnitDistance) {
+    fold.word(found.lower.cast_unsigned());
+    fold.word(found.upper.cast_unsigned());
+}
+
 fn told(fold: &mut Fold, answer: Result<FieldDistance, QueryError>) {
     match answer {
-        Ok(FieldDistance { distance, side, .. }) => {
-            fold.f32(distance.lower);
-            fold.f32(distance.upper);
-            fold.word(match side {
-                Side::Outside => 1,
-                Side::Inside => 2,
-                _ => 0,
-            });
-        }
+        Ok(found) => field_distance(fold, &found),
         Err(error) => refusal(fold, error),
     }
 }
@@ -134,10 +141,7 @@ pub fn is_within(field: &Sdf<'_>, p: Point, distance: f32, to: &mut Asked<'_, im
 #[inline(never)]
 pub fn in_units(field: &Sdf<'_>, place: [i32; 3], to: &mut Asked<'_, impl Observer>) {
     match to.timed(|| field.distance_in_units(place)) {
-        Ok(answer) => {
-            to.fold.word(answer.lower.cast_unsigned());
-            to.fold.word(answer.upper.cast_unsigned());
-        }
+        Ok(answer) => unit_distance(to.fold, answer),
         Err(error) => refusal(to.fold, error),
     }
     if let Ok(gradient) = field.gradient_in_units(place) {
