@@ -18,6 +18,8 @@ extern const unsigned char torus[];
 extern const uint32_t torus_bytes;
 extern const unsigned char fence[];
 extern const uint32_t fence_bytes;
+extern const unsigned char field[];
+extern const uint32_t field_bytes;
 
 /* Distances of two models take a board millions of instructions: fewer of them. */
 enum { ROUNDS = 24, PAIR_ROUNDS = 6, SPLITS = 60, FACES = 160 };
@@ -517,6 +519,37 @@ static void curves(void)
     end("curves");
 }
 
+static void distance_field(void)
+{
+    static msw_sdf sdf;
+    begin();
+    fold_word((uint32_t)msw_open_sdf(&sdf, field, field_bytes));
+    float unit = msw_sdf_unit(&sdf);
+    fold(&unit, sizeof unit);
+    for (int round = 0; round < ROUNDS; round++) {
+        float point[3];
+        random_point(point);
+        msw_sdf_answer near;
+        fold_word((uint32_t)msw_sdf_distance(&sdf, point, &near));
+        fold(&near, sizeof near);
+        msw_sdf_gradient_answer sloped;
+        fold_word((uint32_t)msw_sdf_distance_and_gradient(&sdf, point, &sloped));
+        fold(&sloped, sizeof sloped);
+        msw_verdict_answer within;
+        fold_word((uint32_t)msw_sdf_within(&sdf, point, 8.0f, &within));
+        fold(&within, sizeof within);
+        int32_t place[3], gradient[3];
+        fold_word((uint32_t)msw_sdf_units_of(&sdf, point, place));
+        fold(place, sizeof place);
+        msw_sdf_units units;
+        fold_word((uint32_t)msw_sdf_distance_in_units(&sdf, place, &units));
+        fold(&units, sizeof units);
+        fold_word((uint32_t)msw_sdf_gradient_in_units(&sdf, place, gradient));
+        fold(gradient, sizeof gradient);
+    }
+    end("field");
+}
+
 static void tight_hull(void)
 {
     static msw_tight hull;
@@ -675,6 +708,11 @@ static void refusals(const msw_model *model)
     static msw_curve curve;
     fold_word((uint32_t)msw_open_curve(&curve, groove, groove_bytes));
     fold_word((uint32_t)msw_curve_check_fence(&curve));
+    static msw_sdf sdf;
+    msw_sdf_units units;
+    fold_word((uint32_t)msw_open_sdf(&sdf, groove, groove_bytes));
+    fold_word((uint32_t)msw_sdf_distance_in_units(&sdf, NULL, &units));
+    fold(&units, sizeof units);
     end("refusals");
 }
 
@@ -699,6 +737,7 @@ int main(void)
     poses();
     triboxes();
     curves();
+    distance_field();
     tight_hull();
     refined_hull();
     refusals(&model);

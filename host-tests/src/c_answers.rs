@@ -6,9 +6,10 @@ use crate::corrupt::{entry, put_u32, seal, word};
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
     Blob, Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, CoherentScene, Curve,
-    CurveClosest, CurveNeighbor, Decided, Ended, Facing, FirstHit, Focus, Hint, Hit, Hull,
-    Interval, KeptPair, Motion, Neighbor, NodePair, PairDistance, PlacedModel, Pose, QueryError,
-    RefinedHull, RoundedPose, Scratch, Side, Solid, TightHulls, Triboxes, Undecided, Verdict, Work,
+    CurveClosest, CurveNeighbor, Decided, Ended, Facing, FieldDistance, FirstHit, Focus, Hint, Hit,
+    Hull, Interval, KeptPair, Motion, Neighbor, NodePair, PairDistance, PlacedModel, Pose,
+    QueryError, RefinedHull, RoundedPose, Scratch, Sdf, Side, Solid, TightHulls, Triboxes,
+    Undecided, Verdict, Work,
 };
 
 const ROUNDS: usize = 24;
@@ -181,6 +182,7 @@ pub fn lines(
     bracket: &[u8],
     torus: &[u8],
     fence: &[u8],
+    field: &[u8],
 ) -> Result<String, Box<dyn std::error::Error>> {
     let model = Bvh::open(groove)?;
     let mut kind = Kind::begin();
@@ -200,6 +202,7 @@ pub fn lines(
     text += &poses()?;
     text += &triboxes(torus)?;
     text += &curves(fence)?;
+    text += &distance_field(field)?;
     text += &tight_hull(hulls)?;
     text += &refined_hull(bracket)?;
     Ok(text + &refusals())
@@ -485,6 +488,36 @@ fn triboxes(torus: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     Ok(kind.line("triboxes"))
 }
 
+fn distance_field(field: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
+    let field = Sdf::open(field)?;
+    let mut kind = Kind::begin();
+    kind.words(&[0]);
+    kind.floats(&[field.unit()]);
+    let told = |kind: &mut Kind, found: &FieldDistance| {
+        kind.words(&[0]);
+        kind.side(found.side);
+        kind.interval(found.distance);
+    };
+    for _ in 0..ROUNDS {
+        let point = kind.point();
+        told(&mut kind, &field.distance(point)?);
+        let (found, gradient) = field.distance_and_gradient(point)?;
+        told(&mut kind, &found);
+        kind.floats(&gradient);
+        kind.words(&[0]);
+        kind.verdict(field.within(point, 8.0)?);
+        let place = field.units_of(point);
+        kind.words(&[place.map_or(-42i32, |_| 0).cast_unsigned()]);
+        // After an error the place is all zeros.
+        let place = place.unwrap_or_default();
+        kind.words(&place.map(i32::cast_unsigned));
+        let found = field.distance_in_units(place)?;
+        kind.words(&[0, found.lower.cast_unsigned(), found.upper.cast_unsigned(), 0]);
+        kind.words(&field.gradient_in_units(place)?.map(i32::cast_unsigned));
+    }
+    Ok(kind.line("field"))
+}
+
 fn curves(fence: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     let curve = Curve::open(fence)?;
     let (mut kind, mut scratch) = (Kind::begin(), Scratch::<SCRATCH>::new());
@@ -620,6 +653,9 @@ fn refusals() -> String {
     kind.words(&[0; 7]);
     // A blob without curves, the curves that were not opened.
     codes(&mut kind, &[-26, -3]);
+    // A blob without a field, the field that was not opened.
+    codes(&mut kind, &[-26, -3]);
+    kind.words(&[0; 2]);
     kind.line("refusals")
 }
 
@@ -631,6 +667,6 @@ pub fn of_fixtures(folder: &std::path::Path) -> Result<String, String> {
     let read =
         |name: &str| std::fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"));
     let [groove, hulls, bracket] = [read("groove.msw")?, read("hulls.msw")?, read("bracket.msw")?];
-    let [torus, fence] = [read("torus.msw")?, read("fence.msw")?];
-    lines(&groove, &hulls, &bracket, &torus, &fence).map_err(|error| error.to_string())
+    let [torus, fence, field] = [read("torus.msw")?, read("fence.msw")?, read("field.msw")?];
+    lines(&groove, &hulls, &bracket, &torus, &fence, &field).map_err(|error| error.to_string())
 }

@@ -5,9 +5,9 @@
 
 use meshsweep_core::{
     ClosestPoint, CoherentClosest, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance,
-    Decided, Ended, FirstHit, Interval, KNearest, Neighbor, NodePair, PairContact, PairDistance,
-    Separation, Side, SignedDistance, TriboxBound, TriboxCandidates, Undecided, Verdict,
-    WindingNumber, Work,
+    Decided, Ended, FieldDistance, FirstHit, Interval, KNearest, Neighbor, NodePair, PairContact,
+    PairDistance, Separation, Side, SignedDistance, TriboxBound, TriboxCandidates, Undecided,
+    UnitDistance, Verdict, WindingNumber, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
@@ -66,6 +66,10 @@ answers! {
     CurveNeighborC {
         distance: IntervalC, point: [f32; 3], polyline: u32, segment: u32, t: f32
     }
+    FieldC { side: i32, reason: i32, distance: IntervalC }
+    FieldGradientC { found: FieldC, gradient: [f32; 3] }
+    UnitsC { lower: i32, upper: i32 }
+    VerdictC { verdict: i32, reason: i32 }
     RefinementC { is_complete: u32, error_left: f32, faces: u32, performed: u32, undone: u32 }
     FaceC { corners: [[f32; 3]; 3], error: f32 }
     FacesC { stored: u32, dropped: u32 }
@@ -126,6 +130,26 @@ pub fn side(side: Side) -> (i32, i32) {
         Side::Outside => (2, DECIDED),
         Side::Undecided(why) => (0, reason(why)),
         _ => (0, 0),
+    }
+}
+
+impl From<FieldDistance> for FieldC {
+    fn from(found: FieldDistance) -> Self {
+        let (side, reason) = side(found.side);
+        FieldC { side, reason, distance: found.distance.into() }
+    }
+}
+
+impl From<UnitDistance> for UnitsC {
+    fn from(UnitDistance { lower, upper, .. }: UnitDistance) -> Self {
+        UnitsC { lower, upper }
+    }
+}
+
+impl From<Verdict> for VerdictC {
+    fn from(found: Verdict) -> Self {
+        let (verdict, reason) = verdict(found);
+        VerdictC { verdict, reason }
     }
 }
 

@@ -17,6 +17,7 @@ use meshsweep_c::memory::{
 use meshsweep_c::pose::RoundedPoseC;
 use meshsweep_c::question::{BudgetC, FocusC, HintC, KeptPairC, MotionC, PoseC, facing};
 use meshsweep_c::scene::PlacedC;
+use meshsweep_c::sdf::{SDF_WORDS, SdfStorage};
 use meshsweep_c::tight::{FINEST, TIGHT_WORDS, Tight};
 use meshsweep_c::tree::{MODEL_WORDS, Model};
 use meshsweep_c::triboxes::{TRIBOXES_WORDS, TriboxesStorage};
@@ -52,6 +53,7 @@ fn layouts() -> String {
         "msw_hull": HullStorage {}
         "msw_triboxes": TriboxesStorage {}
         "msw_curve": CurveStorage {}
+        "msw_sdf": SdfStorage {}
         "msw_coherent": CoherentStorage {}
         "msw_coherent_pair": PairStorage {}
         "msw_scene_entry": SceneEntry {}
@@ -91,6 +93,10 @@ fn layouts() -> String {
         "msw_curve_signed": CurveSignedC { side, reason, distance, closest }
         "msw_curve_neighbor": CurveNeighborC { distance, point, polyline, segment, t }
         "msw_curve_within_answer": CurveWithinC { verdict, reason, polyline, segment, work }
+        "msw_sdf_answer": FieldC { side, reason, distance }
+        "msw_sdf_gradient_answer": FieldGradientC { found, gradient }
+        "msw_sdf_units": UnitsC { lower, upper }
+        "msw_verdict_answer": VerdictC { verdict, reason }
         "msw_tribox_bound": TriboxBoundC { lower, node, ended, work }
         "msw_refinement": RefinementC { is_complete, error_left, faces, performed, undone }
         "msw_face": FaceC { corners, error }
@@ -108,6 +114,7 @@ fn constants() -> String {
     holds(&mut text, "MSW_COHERENT_PAIR_WORDS", PAIR_WORDS);
     holds(&mut text, "MSW_TRIBOXES_WORDS", TRIBOXES_WORDS);
     holds(&mut text, "MSW_CURVE_WORDS", CURVE_WORDS);
+    holds(&mut text, "MSW_SDF_WORDS", SDF_WORDS);
     holds(&mut text, "MSW_SCENE_MODEL_ENTRIES", SCENE_MODEL_ENTRIES);
     for (models, pairs) in [(0, 0), (9, 21), (2, 2)] {
         let entries = scene_entries(models, pairs).expect("few");
@@ -226,6 +233,7 @@ fn the_table_of_storage_is_that_of_rust() {
         ("msw_hull", HULL_WORDS),
         ("msw_triboxes", TRIBOXES_WORDS),
         ("msw_curve", CURVE_WORDS),
+        ("msw_sdf", SDF_WORDS),
         ("msw_coherent", COHERENT_WORDS),
         ("msw_coherent_pair", PAIR_WORDS),
     ];

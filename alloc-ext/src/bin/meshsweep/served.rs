@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use meshsweep::distances::{Distances, has_sides};
 use meshsweep_core::{
     AllOverlaps, Blob, Budget, BuildFor, Bvh, Decided, FrameHull, Hull, Pose, QueryError,
-    ScratchEntry, TightHull, TrianglePair, Triboxes,
+    ScratchEntry, Sdf, SdfKind, TightHull, TrianglePair, Triboxes,
 };
 use std::path::Path;
 
@@ -15,11 +15,13 @@ type Serves = fn(&Blob<'_>) -> bool;
 const QUESTIONS: [(&str, Serves); 22] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
     ("closest --frame", |blob| blob.deformable_hull().is_ok()),
-    ("within", |blob| has_distances(blob) || blob.curve().is_ok()),
+    ("within", |blob| has_distances(blob) || blob.curve().is_ok() || blob.sdf().is_ok()),
     ("nearest", |blob| knows_triangles(blob) || blob.curve().is_ok()),
     ("field", knows_triangles),
     ("signed", |blob| {
-        tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree)) || is_fence(blob)
+        tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree))
+            || is_fence(blob)
+            || blob.sdf().is_ok_and(|field| field.kind() != SdfKind::Surface)
     }),
     ("winding", |blob| tree(blob, BuildFor::Winding).is_some()),
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
@@ -101,6 +103,7 @@ fn not_served(
         BuildFor::Tight => "tight hulls",
         BuildFor::Curve => "curves",
         BuildFor::Deform => "hull that deforms",
+        BuildFor::Sdf => "distance field",
         _ => "such structure",
     };
     // With what the blob has already, so that a blob built so serves all of it.
@@ -125,6 +128,16 @@ pub fn require_tree<'a>(
 ) -> Result<Bvh<'a>, Failure> {
     tree(blob, build_for).ok_or_else(|| not_served(file, blob, build_for, None))
 }
+
+/// The blob's distance field, if no other structure of it knows distances: a box tree's interval is
+/// narrower.
+pub fn field<'a>(blob: &Blob<'a>) -> Option<Sdf<'a>> {
+    let others = has_distances(blob) || blob.curve().is_ok();
+    blob.sdf().ok().filter(|_| !others)
+}
+
+/// How far from a distance field a query may be.
+pub const FIELD_LIMIT: &str = "2^60 units of the field from it";
 
 /// The blob's hull hierarchy, if its levels are hulls.
 pub fn require_hulls<'a>(file: &Path, blob: &Blob<'a>) -> Result<Hull<'a>, Failure> {

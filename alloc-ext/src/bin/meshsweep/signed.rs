@@ -1,15 +1,17 @@
 //! `meshsweep signed`: on which side points are, and how far from the surface or the fence.
 
 use crate::args::{SignedArgs, files};
-use crate::ask::{Question, write_element, write_end, write_numbers};
+use crate::ask::{Answer, Question, write_element, write_end, write_numbers};
 use crate::failure::Failure;
 use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::side::{has_sideless, name, reason};
 use crate::{blob_file, served};
 use meshsweep::distances::{Element, has_sides, signed_distance};
+use meshsweep::number::Short;
 use meshsweep_core::{
-    BuildFor, Curve, CurveSignedDistance, Interval, Side, SignedDistance, Undecided,
+    BuildFor, Curve, CurveSignedDistance, Ended, Interval, Sdf, Side, SignedDistance, Undecided,
+    Work,
 };
 use std::io::{self, Write};
 
@@ -23,9 +25,13 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
         curve.check_fence().map_err(refuse)?;
         return ask_fence(args, &curve, Queries::read(&in_plane)?);
     }
-    let tree = served::require_tree(file, &blob, BuildFor::Closest)?;
+    let field = served::field(&blob);
     let points: Result<Vec<_>, _> = points.iter().map(|point| point.in_space()).collect();
     let points = points.map_err(|what| Failure::Usage { what })?;
+    if let Some(field) = field {
+        return ask_field(args, &field, Queries::read(&points)?);
+    }
+    let tree = served::require_tree(file, &blob, BuildFor::Closest)?;
     let header = "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work";
     Question::new(header, Queries::read(&points)?, search).ask_each(
         tree.scratch_entries(),
@@ -53,6 +59,33 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
         );
     }
     Ok(())
+}
+
+/// Asks a distance field.
+fn ask_field(
+    SignedArgs { search, .. }: &SignedArgs,
+    field: &Sdf<'_>,
+    points: Queries<3>,
+) -> Result<(), Failure> {
+    let header = "x,y,z,side,reason,lower,upper,gx,gy,gz";
+    let question = Question {
+        limit: Some(served::FIELD_LIMIT.to_owned()),
+        ..Question::new(header, points, search)
+    };
+    question.ask_each(
+        0,
+        |point, _| {
+            let found = field.distance_and_gradient(point)?;
+            Ok(Answer { found, ended: Ended::Exact, work: Work::NONE })
+        },
+        |out, _, point, Answer { found: (found, [gx, gy, gz]), .. }| {
+            let Interval { lower, upper } = found.distance;
+            write_numbers(out, point)?;
+            write!(out, "{},{},", name(found.side), reason(found.side))?;
+            write_numbers(out, &[lower, upper, *gx, *gy])?;
+            writeln!(out, "{}", Short(*gz))
+        },
+    )
 }
 
 /// Asks whether a fence allows points.

@@ -11,7 +11,8 @@ use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::{blob_file, served, triboxes};
 use meshsweep::distances::Distances;
-use meshsweep_core::{BuildFor, Bvh, Curve, CurveNeighbor, Ended, Neighbor};
+use meshsweep::number::Short;
+use meshsweep_core::{BuildFor, Bvh, Curve, CurveNeighbor, Ended, Interval, Neighbor, Sdf, Work};
 
 /// Room for triangles, or segments, at first.
 const ROOM: usize = 64;
@@ -22,6 +23,9 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
     let blob = blob_file::open(file)?;
     if args.triboxes {
         return triboxes::within(args, &blob);
+    }
+    if let (Some(field), false, None) = (served::field(&blob), args.all, args.tight) {
+        return ask_field(args, &field, Queries::read(points)?);
     }
     let tree = || served::require_tree(file, &blob, BuildFor::Closest);
     if let (Ok(curve), true) = (blob.curve(), args.all) {
@@ -59,6 +63,31 @@ fn ask_any(
             write!(out, "{},", verdict_name(found.verdict))?;
             write_element(out, is_curve, found.element)?;
             writeln!(out, "{}", found.work.total())
+        },
+    )
+}
+
+/// Asks a distance field.
+fn ask_field(
+    WithinArgs { distance, search, .. }: &WithinArgs,
+    field: &Sdf<'_>,
+    points: Queries<3>,
+) -> Result<(), Failure> {
+    let header = "x,y,z,within,lower,upper";
+    let question = Question {
+        limit: Some(served::FIELD_LIMIT.to_owned()),
+        ..Question::new(header, points, search)
+    };
+    question.ask_each(
+        0,
+        |point, _| {
+            let found = (field.within(point, *distance)?, field.distance(point)?.distance);
+            Ok(Answer { found, ended: ask::ended(found.0), work: Work::NONE })
+        },
+        |out, _, point, Answer { found: (verdict, Interval { lower, upper }), .. }| {
+            write_numbers(out, point)?;
+            write!(out, "{},", verdict_name(*verdict))?;
+            writeln!(out, "{},{}", Short(*lower), Short(*upper))
         },
     )
 }
