@@ -34,7 +34,7 @@
 //! | [`trade`] | errors and costs of a mesh's structures and settings, measured |
 //!
 //! A room uses those to its left in this line, and no other: `geom` ← `{emit, lp, mesh}` ←
-//! `progress` ← `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{tight, tribox, curve}` ←
+//! `progress` ← `surface` ← `{collapse, bvh, load}` ← `hausdorff` ← `{tight, tribox, curve, sdf}` ←
 //! `hull` ← `{cut, builder}` ← `{trade, robot}` ← `worst` ← the program. `trade` also uses the
 //! distance of `check`, and `distances` uses no room. A test keeps that (`host-tests/tests/house`).
 
@@ -64,6 +64,7 @@ pub mod pose;
 pub mod progress;
 mod random;
 pub mod robot;
+pub mod sdf;
 pub mod surface;
 pub mod tight;
 pub mod trade;

@@ -43,6 +43,8 @@ pub enum Stage {
     BoxTree,
     /// Triboxes.
     Triboxes,
+    /// The distance field.
+    Sdf,
     /// A tight hull's edges collapse against the mesh.
     Shrinking {
         /// Faces that are gone.

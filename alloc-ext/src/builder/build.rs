@@ -11,6 +11,7 @@ use crate::hull::{self, BuildReport, Levels};
 use crate::load::{Loaded, Source, bytes_of};
 use crate::mesh::{KeyFrame, RawMesh, Unit};
 use crate::progress::{Stage, Watch};
+use crate::sdf::{self, SdfReport};
 use crate::surface::VertexBits;
 use crate::tight::{self, HullReport, Tightness};
 use crate::tribox::{self, TriboxReport};
@@ -39,6 +40,7 @@ const TREE: f64 = 4.0;
 const TRIBOXES: f64 = 10.0;
 /// Of all tight hulls together.
 const TIGHT: f64 = 40.0;
+const SDF: f64 = 40.0;
 
 /// Builds the blob of a mesh that is at hand as read and repaired, without its repairs.
 pub(super) fn build_repaired(
@@ -72,6 +74,7 @@ pub(super) fn build(
         (options.wants_tree(), TREE),
         (options.serves(For::Triboxes), TRIBOXES),
         (options.serves(For::Tight), TIGHT),
+        (options.serves(For::Sdf), SDF),
     ];
     let whole = weights.iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, of)| of).sum();
     let mut work = Work { options, watch, done: 0.0, whole };
@@ -150,11 +153,13 @@ impl<'w> Work<'w> {
         let tree = self.tree(loaded)?;
         let triboxes = self.triboxes(loaded)?;
         let tight = self.tight(loaded)?;
+        let sdf = self.sdf(loaded)?;
         let structures = [
             hull.as_ref().map(|(tables, _)| tables),
             tree.as_ref().map(|(tables, _)| tables),
             triboxes.as_ref().map(|(tables, _)| tables),
             tight.as_ref().map(|(tables, _)| tables),
+            sdf.as_ref().map(|(tables, _)| tables),
         ];
         let bytes = emit::assemble(structures.into_iter().flatten());
         let mut built = Built::of(bytes);
@@ -162,6 +167,7 @@ impl<'w> Work<'w> {
         built.tree = tree.map(|(_, report)| report);
         built.triboxes = triboxes.map(|(_, report)| report);
         built.tight = tight.map(|(_, reports)| reports).unwrap_or_default();
+        built.sdf = sdf.map(|(_, report)| report);
         built.opened(|built, blob| of_blob(self.options, loaded, blob, built))
     }
 
@@ -206,6 +212,14 @@ impl<'w> Work<'w> {
         }
         let watch = self.begin(TRIBOXES, Stage::Triboxes)?;
         tribox::build(loaded.input(), &self.options.of_triboxes(), watch).map(Some)
+    }
+
+    fn sdf(&mut self, loaded: &Loaded) -> Result<Made<SdfReport>, BuildError> {
+        if !self.options.serves(For::Sdf) {
+            return Ok(None);
+        }
+        let watch = self.begin(SDF, Stage::Sdf)?;
+        sdf::build(loaded.input(), &self.options.of_sdf(), watch).map(Some)
     }
 
     fn tight(&mut self, loaded: &Loaded) -> Result<Made<Vec<HullReport>>, BuildError> {

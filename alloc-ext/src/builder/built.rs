@@ -5,6 +5,7 @@ use crate::curve::CurveReport;
 use crate::error::BuildError;
 use crate::hull::BuildReport;
 use crate::load::Loaded;
+use crate::sdf::SdfReport;
 use crate::tight::HullReport;
 use crate::tribox::TriboxReport;
 use meshsweep_core::{Blob, Hull};
@@ -36,6 +37,8 @@ pub enum Topic {
     Triboxes,
     /// Tight hulls.
     Tight,
+    /// The distance field.
+    Sdf,
     /// Why winding numbers are doubtful.
     Winding,
 }
@@ -51,6 +54,7 @@ impl Topic {
             Self::Sides => "sides",
             Self::Triboxes => "triboxes",
             Self::Tight => "tight_hulls",
+            Self::Sdf => "sdf",
             Self::Winding => "winding",
         }
     }
@@ -79,6 +83,8 @@ pub struct Built {
     pub triboxes: Option<TriboxReport>,
     /// Report of each tight hull.
     pub tight: Vec<HullReport>,
+    /// Report of the distance field.
+    pub sdf: Option<SdfReport>,
     /// Report of the curves.
     pub curve: Option<CurveReport>,
 }
@@ -94,6 +100,7 @@ impl Built {
             tree: None,
             triboxes: None,
             tight: Vec::new(),
+            sdf: None,
             curve: None,
         }
     }

@@ -26,6 +26,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 pub use crate::progress::Stage;
+pub use crate::sdf::{BYTES as SDF_BYTES, SdfKind};
 pub use crate::tight::FACES;
 pub use built::{Built, Note, Topic};
 pub use options::{For, TRIBOXES};
@@ -108,6 +109,14 @@ impl<'a> Builder<'a> {
         void_percent: f64 => options.void_percent,
         /// Distance that tight hulls keep from the mesh, in its unit. Default: 0.
         margin: f64 => options.margin,
+        /// Most bytes of a distance field: [`SDF_BYTES`] unless told otherwise.
+        sdf_bytes: u32 => options.sdf_bytes,
+        /// What the distances of a field mean. Default: signed if the mesh is closed and has
+        /// sides, else [`SdfKind::Surface`].
+        sdf_kind: SdfKind => options.sdf_kind,
+        /// Distance about the mesh's box that a field covers, in the mesh's unit. Default: a tenth
+        /// of the box's diagonal.
+        sdf_margin: f64 => options.sdf_margin,
         /// How long to polish tight hulls, as a factor: 0 not at all. Default: 1.
         effort: f64 => options.effort,
     }

@@ -9,6 +9,7 @@ use crate::hull::{BuildReport, Kind, sticks_out_note, wires_note};
 use crate::load::Loaded;
 use crate::mesh::Mesh;
 use crate::number::{About, AtMost};
+use crate::sdf::{SdfKind, SdfReport};
 use crate::surface::VertexBits;
 use crate::tight::{Goal, HullReport, margin_note, no_void_note, rounded_note};
 use crate::tribox::TriboxReport;
@@ -81,6 +82,7 @@ pub(super) fn of_blob(
         tight.extend(no_void_note(&first.void));
         reports.iter().for_each(|report| tight.extend(of_tight(report)));
     }
+    let sdf = built.sdf.as_ref().map_or_else(Vec::new, of_sdf);
     let triboxes = built.triboxes.as_ref().and_then(|report| of_triboxes(options, report));
     let winding = if options.serves(For::Winding) { of_winding(loaded) } else { vec![] };
     notes(Topic::Input, of_mesh(loaded, built.hull.as_ref()))
@@ -89,6 +91,7 @@ pub(super) fn of_blob(
         .chain(notes(Topic::Sides, sides))
         .chain(notes(Topic::Triboxes, triboxes))
         .chain(notes(Topic::Tight, tight))
+        .chain(notes(Topic::Sdf, sdf))
         .chain(notes(Topic::Winding, winding))
         .collect()
 }
@@ -150,6 +153,35 @@ fn sideless(report: SidesReport) -> String {
         ),
     };
     format!("{places}: {surface} {defect}; --for closest,winding decides them by winding numbers")
+}
+
+/// What the field's distances mean if the mesh decided it, how wide it is, and what its proof did.
+fn of_sdf(report: &SdfReport) -> Vec<String> {
+    let mut texts = Vec::new();
+    if report.lacks_sides {
+        texts.push("the mesh is not closed: the field's distances have no sign".to_owned());
+    }
+    let outside = if report.kind == SdfKind::Solid { " outside" } else { "" };
+    texts.push(format!(
+        "intervals{outside} up to a tenth of the diagonal from the surface: about {} wide, at most \
+         about {}",
+        About(report.mean_width),
+        About(report.largest_width)
+    ));
+    texts.push(format!(
+        "proved by {}; {} became wider for it",
+        Counted(report.boxes, "box"),
+        Counted(report.widened, "cell")
+    ));
+    if report.undecided > 0 {
+        let all: usize = report.cells.iter().product();
+        texts.push(format!(
+            "in {} of {all} points have no certain side: the mesh crosses itself there, or is \
+             inside out",
+            Counted(report.undecided, "cell")
+        ));
+    }
+    texts
 }
 
 /// Says that triboxes are not as near as asked for.

@@ -6,7 +6,8 @@ use crate::error::BuildError;
 use crate::hull::BuildOptions;
 use crate::load::is_named_as_mesh;
 use crate::mesh::Unit;
-use crate::number::ABOVE_ZERO;
+use crate::number::{ABOVE_ZERO, FROM_ZERO};
+use crate::sdf::{BYTES as SDF_BYTES, SdfKind, SdfOptions};
 use crate::surface::VertexBits;
 use crate::tight::{ChainOptions, FACES, Goal, MAX_HULLS, Options as TightOptions};
 use crate::tribox::{Measure, TriboxOptions};
@@ -40,11 +41,13 @@ pub enum For {
     Deform,
     /// Winding numbers, by the box tree.
     Winding,
+    /// Bounds of distances, by a look-up in a distance field.
+    Sdf,
 }
 
 impl For {
     /// All questions.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Closest,
         Self::Segment,
         Self::Hull,
@@ -55,6 +58,7 @@ impl For {
         Self::Curve,
         Self::Deform,
         Self::Winding,
+        Self::Sdf,
     ];
 
     /// The word of the program's `--for`.
@@ -71,6 +75,7 @@ impl For {
             Self::Curve => "curve",
             Self::Deform => "deform",
             Self::Winding => "winding",
+            Self::Sdf => "sdf",
         }
     }
 }
@@ -109,6 +114,9 @@ pub(super) struct Options {
     /// Whether tight hulls serve distances, and whether segments.
     pub tight_for: Option<[bool; 2]>,
     pub is_closed: bool,
+    pub sdf_bytes: Option<u32>,
+    pub sdf_kind: Option<SdfKind>,
+    pub sdf_margin: Option<f64>,
 }
 
 /// What an option applies to.
@@ -120,6 +128,7 @@ enum Of {
     Closed,
     Triboxes,
     Tight,
+    Sdf,
 }
 
 /// An option of the program.
@@ -240,6 +249,13 @@ impl Options {
         }
     }
 
+    pub fn of_sdf(&self) -> SdfOptions {
+        SdfOptions::default()
+            .with_bytes(self.sdf_bytes.unwrap_or(SDF_BYTES))
+            .with_kind(self.sdf_kind)
+            .with_margin(self.sdf_margin)
+    }
+
     /// The goal of the one tight hull, where no numbers of faces are asked for.
     fn goal(&self) -> Goal {
         let void = self.void_percent.map(|percent| Goal::Void(percent / 100.0));
@@ -248,7 +264,7 @@ impl Options {
 
     /// All options, one row each: name, what it applies to, value, range. The range of slack, void
     /// and margin is in [`Goal::check`].
-    fn rows(&self) -> [OptionRow; 20] {
+    fn rows(&self) -> [OptionRow; 23] {
         let bits = Some(self.vertex_bits).filter(|&bits| bits != VertexBits::Auto);
         let collapse = &self.collapse;
         let [closest, segment] = self.tight_for.unwrap_or_default();
@@ -293,6 +309,9 @@ impl Options {
             OptionRow::words("--margin", Of::Tight, self.margin),
             OptionRow::words("--tight-for", Of::Tight, asked.into_iter().flatten()),
             OptionRow::numbers("--effort", Of::Tight, self.effort, ranges::EFFORT),
+            OptionRow::numbers("--sdf", Of::Sdf, self.sdf_bytes, ranges::SDF_BYTES),
+            OptionRow::words("--sdf-kind", Of::Sdf, self.sdf_kind.map(SdfKind::name)),
+            OptionRow::numbers("--sdf-margin", Of::Sdf, self.sdf_margin, FROM_ZERO),
             OptionRow::words("--closed", Of::Any, self.is_closed.then_some("")),
         ]
     }
@@ -379,6 +398,7 @@ impl Options {
             Of::Closed => (self.wants_solid(), "is for outer hulls; add hull to --for"),
             Of::Triboxes => (self.serves(For::Triboxes), "is for triboxes; add triboxes to --for"),
             Of::Tight => (self.serves(For::Tight), "is for tight hulls; add tight to --for"),
+            Of::Sdf => (self.serves(For::Sdf), "is for a distance field; add sdf to --for"),
         };
         (!is_served).then_some(why)
     }

@@ -6,6 +6,8 @@ pub const BASE_FACES: [u32; 2] = [4, u32::MAX];
 pub const TRIBOX_COUNT: [u32; 2] = [1, 4096];
 /// Faces of a stored tight hull.
 pub const TIGHT_FACES: [u32; 2] = [4, 1_000_000];
+/// Bytes of a distance field.
+pub const SDF_BYTES: [u32; 2] = [256, 1 << 18];
 /// The factor of the time to polish.
 pub const EFFORT: [f64; 2] = [0.0, 1e6];
 /// Edges of a hull vertex.

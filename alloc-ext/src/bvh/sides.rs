@@ -152,6 +152,12 @@ impl<'a> Sided<'a> {
         Sides { are_lost, sideless, defect, crossings }
     }
 
+    /// How often the file winds each triangle, if the mesh winds some otherwise: 0 in a component
+    /// of both.
+    pub(super) fn times(&self, positions: &[DVec3]) -> Option<Vec<i32>> {
+        self.filed(positions).map(|filed| filed.times)
+    }
+
     /// A pair of those that cross which does so with vertices where `exact` has them.
     pub(super) fn still_crossing(&self, crossings: &[[u32; 2]], exact: &OnGrid) -> Option<Placed> {
         let face = |face: u32| {

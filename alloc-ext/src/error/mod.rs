@@ -4,7 +4,7 @@ mod curve;
 mod unmet;
 
 use crate::mesh::{MeshError, NoVolume};
-use crate::number::{AtMost, Typed, wanted};
+use crate::number::{About, AtMost, Typed, wanted};
 use meshsweep_core::{OpenError, TriboxError};
 use std::fmt;
 use std::io;
@@ -137,6 +137,22 @@ pub enum BuildError {
         slack: f64,
         /// The margin, with what rounding of the mesh may take from it.
         margin: f64,
+    },
+    /// A field with sides was asked for, and the mesh is not closed, or has none.
+    NoSides {
+        /// The kind of field.
+        kind: &'static str,
+    },
+    /// The unit of a distance field is no normal number of single precision.
+    FieldUnit {
+        /// The longest side of the field, in the mesh's unit.
+        side: f64,
+    },
+    /// An error of a field is too large for its bytes: it is undecided far from the surface on which side
+    /// points are.
+    FieldTooWide {
+        /// The kind of field.
+        kind: &'static str,
     },
     /// Triboxes do not hold the mesh's coordinates.
     Triboxes(TriboxError),
@@ -285,6 +301,23 @@ impl fmt::Display for BuildError {
                 f,
                 "key frame {frame}, counted from 0: vertex {vertex} is 64 times the first mesh's \
                  size or more from the place of that mesh; move the frames nearer"
+            ),
+            Self::NoSides { kind } => write!(
+                f,
+                "the mesh is not closed, so that no point is inside or outside: a {kind} field \
+                 needs sides; close it, or ask for --sdf-kind surface"
+            ),
+            Self::FieldUnit { side } => write!(
+                f,
+                "a field of side {} has no unit in single precision; scale the mesh, or give it an \
+                 extent or a --sdf-margin",
+                About(*side)
+            ),
+            Self::FieldTooWide { kind } => write!(
+                f,
+                "points far from the surface are neither inside nor outside: the errors of a {kind} \
+                 field have no room in its bytes; unite the mesh's parts, or ask for --sdf-kind \
+                 surface"
             ),
             Self::Triboxes(error) => write!(f, "{error}; choose a larger unit"),
             Self::NoLevel { levels: 0, .. } => {

@@ -102,6 +102,7 @@ impl Report<'_> {
         built.report_on(Topic::Sides).try_for_each(|note| writeln!(out, "{note}"))?;
         indented(out, Topic::Triboxes)?;
         indented(out, Topic::Tight)?;
+        indented(out, Topic::Sdf)?;
         chosen.map_or_else(|| self.write_seconds(out), |_| Ok(()))
     }
 
@@ -116,7 +117,7 @@ impl Report<'_> {
 
     /// Seconds of the parts of the build.
     fn seconds(&self) -> Vec<(&'static str, f64)> {
-        let Built { curve, loaded, hull, tree, triboxes, tight, .. } = self.built;
+        let Built { curve, loaded, hull, tree, triboxes, tight, sdf, .. } = self.built;
         let mut parts: Vec<(&str, Duration)> = Vec::new();
         parts.extend(curve.iter().map(|report| ("hierarchy", report.time)));
         parts.extend(loaded.iter().map(|loaded| ("read and repair", loaded.time)));
@@ -132,6 +133,7 @@ impl Report<'_> {
         if !tight.is_empty() {
             parts.push(("tight hulls", tight.iter().map(|report| report.time).sum()));
         }
+        parts.extend(sdf.iter().map(|report| ("distance field", report.time)));
         parts.into_iter().map(|(part, time)| (part, time.as_secs_f64())).collect()
     }
 

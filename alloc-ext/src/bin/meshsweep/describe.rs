@@ -3,6 +3,7 @@
 
 mod curve;
 pub mod hull;
+mod sdf;
 mod shape;
 pub mod tight;
 pub mod tree;
@@ -92,9 +93,21 @@ fn hierarchy_key(kind: SectionKind) -> &'static str {
         "hull hierarchy" => "hull",
         "box tree" => "tree",
         "tight hulls" => "tight_hulls",
+        "distance field" => "sdf",
         other => other,
     }
 }
+
+/// The structures, in the order of the tables.
+const TITLES: [&str; 7] = [
+    "hull hierarchy",
+    "box tree",
+    "triboxes",
+    "tight hulls",
+    "curves",
+    "deformation",
+    "distance field",
+];
 
 /// Sections with their bytes, structure by structure.
 fn write_sections(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
@@ -105,8 +118,7 @@ fn write_sections(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
     let header = blob.header().header_bytes as usize;
     line("header", header)?;
     let mut all = 0;
-    for title in ["hull hierarchy", "box tree", "triboxes", "tight hulls", "curves", "deformation"]
-    {
+    for title in TITLES {
         let of_kind = || blob.sections().filter(|section| hierarchy(section.kind) == title);
         let bytes: usize = of_kind().map(|section| section.bytes as usize).sum();
         if bytes == 0 {
@@ -141,6 +153,9 @@ pub fn write_blob(out: &mut dyn Write, blob: &Blob<'_>) -> io::Result<()> {
     }
     if let Ok(curve) = blob.curve() {
         curve::write(out, &curve)?;
+    }
+    if let Ok(sdf) = blob.sdf() {
+        sdf::write(out, &sdf)?;
     }
     blob.tight_hulls().map_or(Ok(()), |hulls| tight::write(out, &hulls))
 }
@@ -209,6 +224,7 @@ pub fn as_json(blob: &Blob<'_>) -> Value {
         "tree": blob.bvh().ok().map(|tree| tree::as_json(&tree, diagonal(blob))),
         "triboxes": blob.triboxes().ok().map(|triboxes| triboxes::as_json(&triboxes)),
         "curve": blob.curve().ok().map(|curve| curve::as_json(&curve)),
+        "sdf": blob.sdf().ok().map(|sdf| sdf::as_json(&sdf)),
         "tight_hulls": blob.tight_hulls().ok().map(|hulls| tight::as_json(&hulls)),
     })
 }

@@ -2,12 +2,14 @@
 
 use super::measuring::{LimitArgs, measured};
 use super::reading::{ReadArgs, ThreadArgs};
-use super::values::{degrees, distance, factor, length, percent, question, ratio, whole};
+use super::values::{
+    degrees, distance, factor, length, percent, question, ratio, sdf_bytes, whole,
+};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep::Builder;
-use meshsweep::builder::For;
 use meshsweep::builder::ranges::{BASE_FACES, MAX_VALENCE, TIGHT_FACES, TRIBOX_COUNT};
+use meshsweep::builder::{For, SdfKind};
 use meshsweep::collapse::{CollapseOptions, Priority};
 use meshsweep::lp::Order;
 use meshsweep::surface::VertexBits;
@@ -110,6 +112,24 @@ pub struct BuildArgs {
         hide_possible_values = true
     )]
     pub tight_for: Vec<HullServes>,
+    /// Most bytes of the distance field, with --for sdf: as 16K [default: 16K]
+    #[arg(long, value_name = "BYTES", value_parser = sdf_bytes)]
+    pub sdf: Option<u32>,
+    /// What the field's distances mean: signed, solid or surface
+    ///
+    /// By default signed if the mesh is closed and has sides, else surface. See below.
+    #[arg(
+        long,
+        value_name = "KIND",
+        hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(SdfKind::ALL.map(SdfKind::name)).map(sdf_kind)
+    )]
+    pub sdf_kind: Option<SdfKind>,
+    /// Distance about the mesh's box that the field covers, in the mesh's unit
+    ///
+    /// By default a tenth of the box's diagonal. Farther out answers are wider.
+    #[arg(long, value_name = "DISTANCE", value_parser = length)]
+    pub sdf_margin: Option<f64>,
     /// With --for curve: join the last point of each polyline with its first; zones always are
     #[arg(long)]
     pub closed: bool,
@@ -161,6 +181,11 @@ fn measure(name: String) -> Measure {
     MEASURES.into_iter().find(|of| of.name() == name).unwrap_or(Measure::Volume)
 }
 
+/// A kind of field by its name, which is one of all.
+fn sdf_kind(name: String) -> SdfKind {
+    SdfKind::ALL.into_iter().find(|of| of.name() == name).unwrap_or(SdfKind::Signed)
+}
+
 impl BuildArgs {
     /// What builds the blob.
     pub fn builder(&self) -> Builder<'_> {
@@ -179,6 +204,9 @@ impl BuildArgs {
             .void_percent(self.void)
             .margin(self.margin)
             .effort(self.effort)
+            .sdf_bytes(self.sdf)
+            .sdf_kind(self.sdf_kind)
+            .sdf_margin(self.sdf_margin)
             .closed(self.closed);
         let asked = |of: HullServes| self.tight_for.contains(&of);
         let builder = match self.tight_for.as_slice() {

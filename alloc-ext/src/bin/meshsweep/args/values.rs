@@ -54,6 +54,16 @@ pub fn unit(text: &str) -> Result<Unit, String> {
     found.ok_or_else(|| format!("one of {} is wanted", Unit::ALL.map(Unit::symbol).join(", ")))
 }
 
+/// A number of bytes, or of 1024 bytes with K.
+pub fn sdf_bytes(text: &str) -> Result<u32, String> {
+    let [least, most] = ranges::SDF_BYTES;
+    let (digits, unit) = text.strip_suffix(['K', 'k']).map_or((text, 1), |digits| (digits, 1024));
+    let bytes = digits.trim().parse::<u32>().ok().and_then(|count| count.checked_mul(unit));
+    let bytes = bytes.filter(|bytes| (least..=most).contains(bytes));
+    bytes
+        .ok_or_else(|| format!("bytes from {least} to {}K are wanted, as 16K or 5000", most / 1024))
+}
+
 /// A whole number from `LEAST` to `MOST`.
 pub fn whole<const LEAST: u32, const MOST: u32>(text: &str) -> Result<u32, String> {
     let wanted = || match MOST {

@@ -1,0 +1,191 @@
+//! The stages of a field's build, in order, and their report.
+
+use super::codes::{Codes, widths};
+use super::domain::{CELL, Domain, bytes};
+use super::encode::{Books, Stored, section};
+use super::prove::{Errors, Proof, Prover};
+use super::samples::Samples;
+use super::truth::{Place, Truth};
+use crate::bvh::FileSides;
+use crate::emit::Sections;
+use crate::error::BuildError;
+use crate::geom::Bounds;
+use crate::mesh::Input;
+use crate::progress::{Stage, Watch};
+use crate::surface::scale_exponent;
+use glam::{DVec3, Vec3};
+use meshsweep_core::internal::geom::Aabb;
+use meshsweep_core::internal::num::{exp2, up_to_f32};
+use meshsweep_core::{SdfKind, SectionKind};
+use rayon::prelude::*;
+use std::time::{Duration, Instant};
+
+/// Bytes of a field unless told otherwise.
+pub const BYTES: u32 = 16 << 10;
+
+/// Part of the diagonal by which wanted errors are above those of the samples, at least. Samples
+/// miss what lies between them, and a proof without slack never ends.
+const SLACK: f64 = 1e-4;
+
+/// Boxes of no larger radius are not halved, as a part of the diagonal.
+const FLOOR: f64 = 3e-4;
+
+/// How to build a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SdfOptions {
+    /// Most bytes of the section.
+    pub bytes: u32,
+    /// Distance about the mesh's box that the field covers, in the mesh's unit. `None`: a tenth of
+    /// the box's diagonal.
+    pub margin: Option<f64>,
+    /// What distances mean. `None`: signed if the mesh is closed and has sides, else surface.
+    pub kind: Option<SdfKind>,
+}
+
+impl Default for SdfOptions {
+    fn default() -> Self {
+        Self { bytes: BYTES, margin: None, kind: None }
+    }
+}
+
+impl SdfOptions {
+    setters! {
+        /// Sets the [bytes](Self::bytes).
+        with_bytes: u32 => bytes,
+        /// Sets the [margin](Self::margin).
+        with_margin: Option<f64> => margin,
+        /// Sets the [kind](Self::kind).
+        with_kind: Option<SdfKind> => kind,
+    }
+}
+
+/// What a field is, and its proof. Lengths are in the mesh's unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SdfReport {
+    /// What distances mean.
+    pub kind: SdfKind,
+    /// Whether the mesh has no sides, so that no kind but surface was possible.
+    pub lacks_sides: bool,
+    /// Cells along each axis.
+    pub cells: [usize; 3],
+    /// Bytes of the section.
+    pub bytes: usize,
+    /// Mean width of the intervals up to a tenth of the diagonal from the surface, of a solid field
+    /// outside.
+    pub mean_width: f64,
+    /// Largest width there.
+    pub largest_width: f64,
+    /// Largest error of a cell, below or above.
+    pub largest_error: f64,
+    /// Cells with places whose side is undecided.
+    pub undecided: usize,
+    /// Boxes of the proof.
+    pub boxes: usize,
+    /// Cells whose errors grew in the proof.
+    pub widened: usize,
+    /// Time of the whole build.
+    pub time: Duration,
+}
+
+/// Builds the field of a mesh. Same mesh and options, same bytes, on any number of threads.
+///
+/// Cost: some seconds, for samples and proof. `watch` can end it.
+///
+/// # Errors
+/// [`BuildError::Empty`]; [`BuildError::NoSides`] of a signed or solid field of a mesh without
+/// sides; [`BuildError::FieldUnit`], [`BuildError::MarginTooLarge`] of a size that the field's unit
+/// cannot have; [`BuildError::FieldTooWide`]; [`BuildError::Cancelled`].
+pub fn build(
+    input: Input<'_>,
+    options: &SdfOptions,
+    watch: Watch<'_>,
+) -> Result<(Sections, SdfReport), BuildError> {
+    let watch = watch.during(Stage::Sdf);
+    let started = Instant::now();
+    let mesh = input.mesh;
+    let corners = mesh.all_corners_f64().flatten();
+    let bounds = corners.fold(Bounds::EMPTY, Bounds::with);
+    if mesh.all_triangles().next().is_none() {
+        return Err(BuildError::Empty);
+    }
+    let surface = bounds.grown(input.error_up());
+    let domain = Domain::of(&surface, options.margin, options.bytes as usize)?;
+    let sides = match options.kind {
+        Some(SdfKind::Surface) => None,
+        _ => FileSides::of(mesh)?,
+    };
+    let lacks_sides = sides.is_none() && options.kind != Some(SdfKind::Surface);
+    let kind = match (options.kind, lacks_sides) {
+        (Some(kind), true) => return Err(BuildError::NoSides { kind: kind.name() }),
+        (Some(kind), false) => kind,
+        (None, true) => SdfKind::Surface,
+        (None, false) => SdfKind::Signed,
+    };
+    let truth = Truth::new(mesh, domain, kind, sides.as_ref());
+    watch.step(5, 100)?;
+    let samples = Samples::of(&truth, &domain, watch.part(0.05, 0.35))?;
+    let codes = Codes::of(&truth, &domain, &samples);
+    watch.step(40, 100)?;
+    let off = input.error_up() * f64::from(domain.per_unit) * (1.0 + 1e-6);
+    let stored = Stored::new(off, codes.step);
+    let slack = SLACK * domain.diagonal;
+    let cells = 0..domain.cell_count();
+    let asked: Vec<[u32; 2]> = (cells.into_par_iter())
+        .map(|cell| {
+            let Errors { low, high } = codes.errors(&domain, &samples, cell, kind);
+            stored.up(Errors { low: low + slack, high: high + slack })
+        })
+        .collect();
+    let mut books = Books::of(&asked, &codes.weights);
+    let proofs = watch.part(0.4, 1.0).map(domain.cell_count(), |cell| {
+        let corner = DVec3::from(domain.cell(cell).map(|at| at as f64)) * CELL;
+        let wanted = stored.errors(books.errors(cell));
+        Prover::cell(&truth, codes.function(&domain, cell), corner, wanted, FLOOR * domain.diagonal)
+    })?;
+    let proved = |(cell, proof): (usize, &Proof)| match proof.is_widened {
+        true => stored.up(proof.errors),
+        false => books.errors(cell),
+    };
+    let needed: Vec<[u32; 2]> = proofs.iter().enumerate().map(proved).collect();
+    books.hold(&needed);
+    let body = section(&domain, kind, &codes, &books)
+        .ok_or(BuildError::FieldTooWide { kind: kind.name() })?;
+    let found = (0..domain.cell_count()).map(|cell| {
+        let [low, high] = books.errors(cell).map(f64::from);
+        widths(&codes, &domain, &samples, cell, kind, Errors { low, high })
+    });
+    let (sum, most, count) = found
+        .fold((0.0, 0f64, 0), |(sum, most, count), of| (sum + of.0, most.max(of.1), count + of.2));
+    let has_doubt = |cell: &usize| {
+        let is_in_doubt = |sample: &super::samples::Sample| sample.place == Place::Undecided;
+        proofs[*cell].is_undecided || samples.cells[*cell].iter().any(is_in_doubt)
+    };
+    let in_units = 1.0 / f64::from(domain.per_unit);
+    let largest = needed.iter().flatten().max().map_or(0.0, |&error| f64::from(error));
+    let report = SdfReport {
+        kind,
+        lacks_sides,
+        cells: domain.cells,
+        bytes: bytes(domain.cells),
+        mean_width: sum / f64::max(count as f64, 1.0) * in_units,
+        largest_width: most * in_units,
+        largest_error: largest * in_units,
+        undecided: (0..domain.cell_count()).filter(has_doubt).count(),
+        boxes: proofs.iter().map(|proof| proof.boxes).sum(),
+        widened: proofs.iter().filter(|proof| proof.is_widened).count(),
+        time: started.elapsed(),
+    };
+    let scale = scale_exponent(mesh);
+    let local = exp2(-scale);
+    let corner = |p: DVec3| -> Vec3 { (p * local).as_vec3() };
+    let header = Sections::new(
+        scale,
+        up_to_f32(input.error_up() * local),
+        input.triangle_count(),
+        Aabb { min: corner(bounds.low), max: corner(bounds.high) },
+        vec![(SectionKind::Sdf, body)],
+    );
+    Ok((header, report))
+}

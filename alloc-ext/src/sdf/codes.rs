@@ -1,0 +1,248 @@
+//! Codes of the lattice's corners.
+//!
+//! They begin at the rounded distances. Then each moves up or down by one, as long as the eight
+//! cells about it get narrower, weighted by where questions are. Corners of one parity along all
+//! axes share no cell, so they move at once, and the codes do not depend on the number of threads.
+
+use super::domain::Domain;
+use super::function::Trilinear;
+use super::prove::Errors;
+use super::samples::{Sample, Samples};
+use super::truth::{Place, Truth};
+use meshsweep_core::SdfKind;
+use meshsweep_core::internal::sdf::format::layout::{MOST_BASE, MOST_STEP};
+use rayon::prelude::*;
+
+/// Part of the diagonal within which most questions are.
+pub(super) const NEAR: f64 = 0.1;
+
+/// Weight of questions farther out.
+const FAR_WEIGHT: f64 = 0.05;
+
+/// Weight of a cell without questions.
+const LEAST_WEIGHT: f64 = 1e-3;
+
+/// Most rounds of moves.
+const ROUNDS: usize = 8;
+
+/// Codes, and what they mean.
+#[derive(Clone, Debug)]
+pub(super) struct Codes {
+    /// Distance of code 0, units.
+    pub base: i32,
+    /// Distance of two codes, units.
+    pub step: u16,
+    /// Per corner, x fastest.
+    pub codes: Vec<u8>,
+    /// Weights of the cells.
+    pub weights: Vec<f64>,
+}
+
+/// What samples of a cell allow: least and most.
+struct Limits {
+    least: Vec<f32>,
+    most: Vec<f32>,
+}
+
+/// How much a sample counts.
+pub(super) fn weight(sample: Sample, kind: SdfKind, near: f64) -> f64 {
+    match (sample.place, kind) {
+        (Place::Inside, SdfKind::Solid) => 0.0,
+        (Place::Inside, SdfKind::Signed) => 1.0,
+        _ if f64::from(sample.distance) <= near => 1.0,
+        _ => FAR_WEIGHT,
+    }
+}
+
+/// Distance at a corner.
+fn value(sample: Sample, kind: SdfKind, deepest: f64) -> f64 {
+    let [low, high] = sample.limits(kind).map(f64::from);
+    match (sample.place, kind) {
+        (Place::Inside, SdfKind::Solid) => f64::max(-f64::from(sample.distance), -deepest),
+        _ => 0.5 * (low + high),
+    }
+}
+
+impl Codes {
+    pub fn of(truth: &Truth<'_>, domain: &Domain, samples: &Samples) -> Self {
+        let kind = truth.kind;
+        // Farther inside, a solid field is only to be below 0.
+        let deepest = 0.5 * super::domain::CELL * 3f64.sqrt();
+        let values: Vec<f64> = (0..domain.corner_count())
+            .map(|number| {
+                let at = domain.corner(number);
+                let bit = |axis: usize| usize::from(at[axis] == domain.cells[axis]);
+                let [x, y, z] = at;
+                let cell = domain.cell_number([x - bit(0), y - bit(1), z - bit(2)]);
+                value(samples.corner(cell, bit(0) | bit(1) << 1 | bit(2) << 2), kind, deepest)
+            })
+            .collect();
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let base = least.floor().clamp(-f64::from(MOST_BASE), f64::from(MOST_BASE));
+        let step = ((most - base) / 255.0).ceil().clamp(1.0, f64::from(MOST_STEP));
+        let codes = values.iter().map(|value| ((value - base) / step).round() as u8).collect();
+        let near = NEAR * domain.diagonal;
+        let weight_of = |samples: &Vec<Sample>| {
+            let sum: f64 = samples.iter().map(|&sample| weight(sample, kind, near)).sum();
+            sum / samples.len() as f64 + LEAST_WEIGHT
+        };
+        let weights = samples.cells.iter().map(weight_of).collect();
+        let mut codes = Self { base: base as i32, step: step as u16, codes, weights };
+        codes.narrow(domain, samples, kind);
+        codes
+    }
+
+    /// The function of a cell, units.
+    pub fn function(&self, domain: &Domain, cell: usize) -> Trilinear {
+        Trilinear::new(self.corners(domain, cell))
+    }
+
+    fn corners(&self, domain: &Domain, cell: usize) -> [f64; 8] {
+        let [x, y, z] = domain.cell(cell);
+        std::array::from_fn(|corner| {
+            let at = [x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2)];
+            let code = self.codes[domain.corner_number(at)];
+            f64::from(self.base) + f64::from(self.step) * f64::from(code)
+        })
+    }
+
+    fn narrow(&mut self, domain: &Domain, samples: &Samples, kind: SdfKind) {
+        let of = |cell: &Vec<Sample>| {
+            let limits = cell.iter().map(|sample| sample.limits(kind));
+            let (least, most) = limits.map(|[least, most]| (least, most)).unzip();
+            Limits { least, most }
+        };
+        let limits: Vec<Limits> = samples.cells.par_iter().map(of).collect();
+        for _ in 0..ROUNDS {
+            let mut moved = 0;
+            for parity in 0..8 {
+                let corners: Vec<usize> = (0..domain.corner_count())
+                    .filter(|&number| {
+                        let [x, y, z] = domain.corner(number);
+                        x & 1 | (y & 1) << 1 | (z & 1) << 2 == parity
+                    })
+                    .collect();
+                let found: Vec<(usize, u8)> = corners
+                    .par_iter()
+                    .filter_map(|&number| {
+                        let code = self.best(domain, samples.steps, &limits, number);
+                        (code != self.codes[number]).then_some((number, code))
+                    })
+                    .collect();
+                moved += found.len();
+                found.into_iter().for_each(|(number, code)| self.codes[number] = code);
+            }
+            if moved < 1 + domain.corner_count() / 500 {
+                break;
+            }
+        }
+    }
+
+    /// The code of a corner with which the cells about it are narrowest, among those next to the
+    /// present one.
+    fn best(&self, domain: &Domain, steps: usize, limits: &[Limits], number: usize) -> u8 {
+        let at = domain.corner(number);
+        let mut cells = Vec::with_capacity(8);
+        for corner in 0..8 {
+            let bits = [corner & 1, corner >> 1 & 1, corner >> 2];
+            let place = [0, 1, 2].map(|axis| at[axis].checked_sub(bits[axis]));
+            if let [Some(x), Some(y), Some(z)] = place
+                && [x, y, z].iter().zip(domain.cells).all(|(&at, cells)| at < cells)
+            {
+                let cell = domain.cell_number([x, y, z]);
+                cells.push((cell, corner, self.corners(domain, cell)));
+            }
+        }
+        let width = |code: u8| -> f64 {
+            let value = f64::from(self.base) + f64::from(self.step) * f64::from(code);
+            cells
+                .iter()
+                .map(|&(cell, corner, mut corners)| {
+                    corners[corner] = value;
+                    let Errors { low, high } = errors(&corners, &limits[cell], steps);
+                    self.weights[cell] * (low + high)
+                })
+                .sum()
+        };
+        let code = self.codes[number];
+        let mut best = (code, width(code));
+        for up in [false, true] {
+            loop {
+                let next = if up { best.0.checked_add(1) } else { best.0.checked_sub(1) };
+                let Some(next) = next else { break };
+                let found = width(next);
+                if found >= best.1 * 0.9999 {
+                    break;
+                }
+                best = (next, found);
+            }
+        }
+        best.0
+    }
+
+    /// The errors that a cell's samples need.
+    pub fn errors(&self, domain: &Domain, samples: &Samples, cell: usize, kind: SdfKind) -> Errors {
+        let limits = samples.cells[cell].iter().map(|sample| sample.limits(kind));
+        let (least, most) = limits.map(|[least, most]| (least, most)).unzip();
+        errors(&self.corners(domain, cell), &Limits { least, most }, samples.steps)
+    }
+}
+
+/// The values of a trilinear function at a cell's samples.
+fn values(corners: &[f64; 8], steps: usize, mut row: impl FnMut(usize, f32, f32)) {
+    let part = 1.0 / steps as f64;
+    let between = |a: f64, b: f64, at: usize| a + (b - a) * (at as f64 * part);
+    let mut start = 0;
+    for k in 0..=steps {
+        let face: [f64; 4] = std::array::from_fn(|i| between(corners[i], corners[i + 4], k));
+        for j in 0..=steps {
+            let [from, to] = [between(face[0], face[2], j), between(face[1], face[3], j)];
+            row(start, from as f32, ((to - from) * part) as f32);
+            start += steps + 1;
+        }
+    }
+}
+
+fn errors(corners: &[f64; 8], limits: &Limits, steps: usize) -> Errors {
+    let (mut low, mut high) = (0f32, 0f32);
+    values(corners, steps, |start, from, rise| {
+        let least = &limits.least[start..=start + steps];
+        let most = &limits.most[start..=start + steps];
+        for (at, (least, most)) in least.iter().zip(most).enumerate() {
+            let value = from + rise * at as f32;
+            low = low.max(value - least);
+            high = high.max(most - value);
+        }
+    });
+    Errors { low: f64::from(low), high: f64::from(high) }
+}
+
+/// The mean and the largest width of intervals with these errors, at the samples of weight 1, and
+/// the number of those samples.
+pub(super) fn widths(
+    codes: &Codes,
+    domain: &Domain,
+    samples: &Samples,
+    cell: usize,
+    kind: SdfKind,
+    of: Errors,
+) -> (f64, f64, usize) {
+    let near = NEAR * domain.diagonal;
+    let (mut sum, mut most, mut count) = (0.0, 0f64, 0);
+    let corners = codes.corners(domain, cell);
+    values(&corners, samples.steps, |start, from, rise| {
+        for (at, &sample) in samples.cells[cell][start..=start + samples.steps].iter().enumerate() {
+            if weight(sample, kind, near) == 1.0 {
+                let value = f64::from(from + rise * at as f32);
+                let low = value - of.low;
+                let low = if kind == SdfKind::Signed { low } else { low.max(0.0) };
+                let width = value + of.high - low;
+                sum += width;
+                most = most.max(width);
+                count += 1;
+            }
+        }
+    });
+    (sum, most, count)
+}

@@ -1,0 +1,142 @@
+//! The field's domain: cells, units, and the frame in which all else is computed.
+//!
+//! The frame's unit is the field's unit, and its origin the lattice's corner 0. Coordinates in the
+//! domain are below 2^19. Those of the mesh are f32 numbers, so the way into the frame is a
+//! difference, a product and a difference of f64: off by less than three parts in 2^53 of 2^19
+//! units, 2^-32 of a unit.
+
+use crate::error::BuildError;
+use crate::geom::Bounds;
+use glam::DVec3;
+use meshsweep_core::internal::sdf::format::layout::{CELL_UNITS, MOST_CELLS, SDF_BYTES};
+
+/// Units along each axis of a cell.
+pub(super) const CELL: f64 = CELL_UNITS as f64;
+
+/// Where the field's cells are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Domain {
+    /// Corner 0 of the lattice is half a unit above, input units.
+    pub origin: [f32; 3],
+    /// Units in one input unit.
+    pub per_unit: f32,
+    /// Its inverse, rounded.
+    pub unit: f32,
+    /// Cells along each axis.
+    pub cells: [usize; 3],
+    /// Diagonal of the mesh's box, units.
+    pub diagonal: f64,
+}
+
+/// Bytes of a field with so many cells along each axis.
+pub(super) fn bytes([x, y, z]: [usize; 3]) -> usize {
+    SDF_BYTES + (x + 1) * (y + 1) * (z + 1) + x * y * z
+}
+
+/// Cells of a side along each axis that hold a box.
+fn cells(size: DVec3, side: f64) -> [usize; 3] {
+    size.to_array().map(|size| (size / side).ceil().max(1.0) as usize)
+}
+
+/// The largest step of f32 numbers in a box: corners of the lattice are off by half of it.
+fn step(bounds: &Bounds) -> f64 {
+    let largest = bounds.low.abs().max(bounds.high.abs()).max_element();
+    let above = (largest as f32).next_up();
+    f64::from(above.next_up()) - f64::from(above)
+}
+
+impl Domain {
+    /// Cells of at most so many bytes about the box of a mesh, and a margin about it, input units.
+    /// Without one, a tenth of the box's diagonal.
+    ///
+    /// # Errors
+    /// [`BuildError::FieldUnit`], [`BuildError::MarginTooLarge`].
+    pub fn of(bounds: &Bounds, margin: Option<f64>, most_bytes: usize) -> Result<Self, BuildError> {
+        let diagonal = (bounds.high - bounds.low).length();
+        let bounds = bounds.grown(margin.unwrap_or(0.1 * diagonal));
+        let size = bounds.high - bounds.low;
+        if size.max_element() > f64::from(f32::MAX) || step(&bounds).is_nan() {
+            return Err(BuildError::MarginTooLarge);
+        }
+        // Room for corner 0 to be a number of f32, and for the rounding of the unit.
+        let size = size * (1.0 + 1e-5) + 2.0 * step(&bounds);
+        let fits = |side: f64| {
+            let cells = cells(size, side);
+            cells.iter().all(|&n| n <= usize::from(MOST_CELLS)) && bytes(cells) <= most_bytes
+        };
+        // One cell always fits. Halved until f64 tells no more.
+        let (mut least, mut side) = (0.0, size.max_element());
+        for _ in 0..60 {
+            let middle = 0.5 * (least + side);
+            *(if fits(middle) { &mut side } else { &mut least }) = middle;
+        }
+        let per_unit = (CELL / side) as f32;
+        let unit = (1.0 / f64::from(per_unit)) as f32;
+        if !(per_unit.is_normal() && unit.is_normal()) {
+            return Err(BuildError::FieldUnit { side: size.max_element() });
+        }
+        let cells = cells(size, side);
+        let middle = 0.5 * (bounds.low + bounds.high);
+        // Corner 0 is half a unit above the origin.
+        let whole = (DVec3::from(cells.map(|n| n as f64)) * CELL + 1.0) / f64::from(per_unit);
+        let origin = (middle - 0.5 * whole).to_array().map(|x| x as f32);
+        if !origin.iter().all(|x| x.is_finite()) {
+            return Err(BuildError::MarginTooLarge);
+        }
+        let domain =
+            Self { origin, per_unit, unit, cells, diagonal: diagonal * f64::from(per_unit) };
+        let ends = [bounds.low, bounds.high].map(|p| domain.place(p));
+        let top = domain.size();
+        let is_within = ends[0].min_element() >= 0.0 && ends[1].cmple(top).all();
+        if is_within { Ok(domain) } else { Err(BuildError::FieldUnit { side: size.max_element() }) }
+    }
+
+    /// A point of the input in the frame.
+    pub fn place(&self, p: DVec3) -> DVec3 {
+        (p - self.input_origin()) * f64::from(self.per_unit) - 0.5
+    }
+
+    /// A point of the frame in the input's.
+    pub fn input_place(&self, p: DVec3) -> DVec3 {
+        self.input_origin() + (p + 0.5) / f64::from(self.per_unit)
+    }
+
+    fn input_origin(&self) -> DVec3 {
+        DVec3::from(self.origin.map(f64::from))
+    }
+
+    /// The domain's upper corner.
+    fn size(&self) -> DVec3 {
+        DVec3::from(self.cells.map(|n| n as f64)) * CELL
+    }
+
+    pub fn cell_count(&self) -> usize {
+        self.cells.iter().product()
+    }
+
+    pub fn corner_count(&self) -> usize {
+        self.cells.iter().map(|n| n + 1).product()
+    }
+
+    /// Place of a cell along each axis.
+    pub fn cell(&self, number: usize) -> [usize; 3] {
+        let [x, y, _] = self.cells;
+        [number % x, number / x % y, number / (x * y)]
+    }
+
+    /// Place of a corner along each axis.
+    pub fn corner(&self, number: usize) -> [usize; 3] {
+        let [x, y, _] = self.cells.map(|n| n + 1);
+        [number % x, number / x % y, number / (x * y)]
+    }
+
+    pub fn cell_number(&self, [i, j, k]: [usize; 3]) -> usize {
+        let [x, y, _] = self.cells;
+        i + x * (j + y * k)
+    }
+
+    pub fn corner_number(&self, [i, j, k]: [usize; 3]) -> usize {
+        let [x, y, _] = self.cells.map(|n| n + 1);
+        i + x * (j + y * k)
+    }
+}

@@ -1,0 +1,40 @@
+//! The distance field: a lattice of distances, and for each cell errors that are proved.
+//!
+//! ```text
+//! domain    cells and units, from a number of bytes
+//! facet     a triangle: its closest point, and bounds of its distance
+//! region    the triangles that can be nearest in a box
+//! truth     distances and sides
+//! samples   distances at places in each cell
+//! function  the trilinear function of a cell
+//! codes     the lattice: rounded distances, moved until cells are narrow
+//! bound     bounds of distance less function in a box
+//! prove     a cell's errors, by branch and bound
+//! books     two books of sixteen errors
+//! encode    the section's bytes
+//! build     the stages, and their report
+//! ```
+//!
+//! *Where errors come from.* Samples tell the errors that a cell needs about. The books are made of
+//! them, with a little slack. Then the errors of the books are proved: rounding up to a book gives
+//! most cells more slack, which makes the proof short. A cell whose proof fails takes the next
+//! entry that holds what it needs. Nothing relies on samples.
+//!
+//! *Rounding.* All is computed in a frame whose unit is the field's. Lengths are below 2^20 there,
+//! so one [margin](region::MARGIN) in that unit is enough for every mesh.
+
+mod books;
+mod bound;
+mod build;
+mod codes;
+mod domain;
+mod encode;
+mod facet;
+mod function;
+mod prove;
+mod region;
+mod samples;
+mod truth;
+
+pub use build::{BYTES, SdfOptions, SdfReport, build};
+pub use meshsweep_core::SdfKind;

@@ -1,0 +1,166 @@
+//! The proof of a cell's errors, by branch and bound over boxes.
+//!
+//! A cell begins with errors that are wanted. Its box is accepted if bounds of the difference
+//! between distance and function ([`super::bound`]) show that the errors suffice; else its eight
+//! parts are looked at. A box of the least size widens the errors to what its bounds need. So the
+//! errors always hold; how good they are depends on the wanted ones.
+
+use super::bound::{flat, greatest, least, most, most_of_facet};
+use super::domain::CELL;
+use super::function::Trilinear;
+use super::region::{Near, Region, TIE, parts};
+use super::truth::{Place, Truth};
+use glam::DVec3;
+use meshsweep_core::SdfKind;
+use std::ops::Range;
+
+/// Most boxes of a cell: then boxes count as if they were of the least size. Cells that need so
+/// many are wide for another reason.
+const MOST_BOXES: usize = 200_000;
+
+/// Errors of a cell, units: F − low ≤ s ≤ F + high.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Errors {
+    pub low: f64,
+    pub high: f64,
+}
+
+/// The proof of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Proof {
+    pub errors: Errors,
+    /// Boxes that were looked at.
+    pub boxes: usize,
+    /// Whether the errors are larger than the wanted ones.
+    pub is_widened: bool,
+    /// Whether some of its points have no certain side.
+    pub is_undecided: bool,
+}
+
+/// The errors of a box that bounds show to suffice.
+fn needed(
+    truth: &Truth<'_>,
+    function: &Trilinear,
+    corner: DVec3,
+    region: &Region,
+    nears: &[Near],
+    side: Option<Place>,
+    wanted: Errors,
+) -> Errors {
+    let linear = function.about(region.centre - corner, region.half);
+    let negative = linear.negative();
+    let facets = &truth.facets;
+    let above = || {
+        let found = most(&linear, region, nears, wanted.high);
+        if found > wanted.high && region.ball().is_some() {
+            found.min(most_of_facet(&linear, region, facets))
+        } else {
+            found
+        }
+    };
+    // Of the distance inside, which is negative.
+    let below = || {
+        let found = most(&negative, region, nears, wanted.low);
+        if found > wanted.low && region.ball().is_some() {
+            found.min(most_of_facet(&negative, region, facets))
+        } else {
+            found
+        }
+    };
+    let to_zero = || greatest(&linear, region);
+    match (truth.kind, side) {
+        (SdfKind::Surface, _) | (_, Some(Place::Outside)) => {
+            let low = (-least(&linear, region, nears)).min(to_zero());
+            Errors { low, high: above() }
+        }
+        (SdfKind::Solid, Some(Place::Inside)) => Errors { low: to_zero(), high: f64::NEG_INFINITY },
+        (SdfKind::Solid, Some(Place::Undecided)) => Errors { low: to_zero(), high: above() },
+        (_, Some(Place::Inside)) => Errors { low: below(), high: -least(&negative, region, nears) },
+        (_, Some(Place::Undecided)) => Errors { low: below(), high: above() },
+        (kind, None) => {
+            let low = if kind == SdfKind::Solid { to_zero() } else { f64::INFINITY };
+            let mut errors = Errors { low, high: f64::INFINITY };
+            let is_enough = |e: &Errors| e.low <= wanted.low && e.high <= wanted.high;
+            if let Some([least, most]) = flat(&linear, region, facets, nears) {
+                errors = Errors { low: errors.low.min(-least), high: errors.high.min(most) };
+            }
+            if !is_enough(&errors) {
+                // |s| = d.
+                if errors.high > wanted.high {
+                    errors.high = errors.high.min(above());
+                }
+                if errors.low > wanted.low {
+                    errors.low = errors.low.min(below());
+                }
+            }
+            errors
+        }
+    }
+}
+
+/// Proves cells one after another.
+pub(super) struct Prover<'a> {
+    truth: &'a Truth<'a>,
+    function: Trilinear,
+    /// The cell's least corner.
+    corner: DVec3,
+    /// Boxes of no larger radius are not halved.
+    floor: f64,
+    nears: Vec<Near>,
+    proof: Proof,
+}
+
+impl<'a> Prover<'a> {
+    /// Proves the errors of a cell, which are the wanted ones or larger.
+    pub fn cell(
+        truth: &'a Truth<'a>,
+        function: Trilinear,
+        corner: DVec3,
+        wanted: Errors,
+        floor: f64,
+    ) -> Proof {
+        let mut prover = Self {
+            truth,
+            function,
+            corner,
+            floor,
+            nears: Vec::new(),
+            proof: Proof { errors: wanted, ..Proof::default() },
+        };
+        let half = DVec3::splat(0.5 * CELL);
+        let region = truth.facets.gather(corner + half, half, &mut prover.nears);
+        prover.visit(&region, 0..prover.nears.len(), None);
+        let Errors { low, high } = prover.proof.errors;
+        prover.proof.is_widened = low > wanted.low || high > wanted.high;
+        prover.proof
+    }
+
+    fn visit(&mut self, region: &Region, range: Range<usize>, whole: Option<Place>) {
+        self.proof.boxes += 1;
+        let nears = &self.nears[range.clone()];
+        let side = whole.or_else(|| {
+            let ties = || nears.iter().filter(|near| near.distance <= region.distance + TIE);
+            (region.least > region.radius).then(|| self.truth.side(region.centre, ties().copied()))
+        });
+        let wanted = self.proof.errors;
+        let Self { truth, function, corner, .. } = self;
+        let found = needed(truth, function, *corner, region, nears, side, wanted);
+        let is_last = region.radius <= self.floor || self.proof.boxes >= MOST_BOXES;
+        let suffices = found.low <= wanted.low && found.high <= wanted.high;
+        if suffices || is_last {
+            let errors = &mut self.proof.errors;
+            errors.low = errors.low.max(found.low);
+            errors.high = errors.high.max(found.high);
+            self.proof.is_undecided |= side == Some(Place::Undecided);
+            return;
+        }
+        let half = 0.5 * region.half;
+        for centre in parts(region.centre, region.half) {
+            let start = self.nears.len();
+            let part =
+                self.truth.facets.narrow(region, range.clone(), [centre, half], &mut self.nears);
+            self.visit(&part, start..self.nears.len(), side);
+            self.nears.truncate(start);
+        }
+    }
+}

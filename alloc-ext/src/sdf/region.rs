@@ -1,0 +1,198 @@
+//! The triangles that can be nearest to a point of a box.
+//!
+//! The distance to a triangle is convex. So with the unit vector *n* from its closest point to the
+//! box's centre *c* it is at least D + n·(x − c) at every point x of the box, where D is the height
+//! of *c* over the triangle along *n*. Any unit vector would do: a rounded one is as sound. The
+//! distance to the surface is at most |x − q|, where *q* is the surface's point next to *c*. If the
+//! first is above the second at the eight corners, it is so in all of the box, because their
+//! difference is convex: the triangle is nearest nowhere, and no part of the box need look at it.
+//!
+//! Near the surface the triangles within a ball are kept too, see [`Region::ball`].
+
+use super::facet::Facet;
+use crate::geom::{Bounds, Frontier, StaticTree};
+use glam::DVec3;
+use std::ops::Range;
+
+/// Margin for rounding, units.
+///
+/// Places of vertices are off by 2^-32. Coordinates are below 2^19, distances below 2^20. A
+/// difference, a product with a unit vector and the sums of three lose less than sixteen parts in
+/// 2^53 of such a length: 2^-29. All that is computed of a box adds fewer than a hundred of them.
+pub(super) const MARGIN: f64 = 1.0 / (1 << 20) as f64;
+
+/// Triangles that are this much farther than the nearest one count as nearest too, units.
+pub(super) const TIE: f64 = 1.0 / (1 << 10) as f64;
+
+/// A triangle that may be nearest somewhere in a box.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    pub facet: u32,
+    /// The point of it that is closest to the box's centre.
+    pub point: DVec3,
+    /// Unit vector from there to the centre.
+    pub normal: DVec3,
+    /// Height of the centre over the triangle along it: no more than its distance.
+    pub distance: f64,
+}
+
+/// A box and its nearest triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Region {
+    pub centre: DVec3,
+    pub half: DVec3,
+    pub radius: f64,
+    /// The triangle nearest to the centre.
+    pub facet: u32,
+    /// The point of the surface nearest to the centre.
+    pub point: DVec3,
+    /// Its distance, rounded up.
+    pub distance: f64,
+    /// No triangle is nearer to the centre.
+    pub least: f64,
+    /// Distances of that point from the eight corners, rounded up.
+    pub ends: [f64; 8],
+}
+
+/// The corners of a box about its centre.
+#[inline]
+pub(super) fn corners(half: DVec3) -> [DVec3; 8] {
+    std::array::from_fn(|corner| {
+        let sign = |bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        half * DVec3::new(sign(0), sign(1), sign(2))
+    })
+}
+
+/// The eight parts of a box, by their centres.
+pub(super) fn parts(centre: DVec3, half: DVec3) -> [DVec3; 8] {
+    corners(0.5 * half).map(|corner| centre + corner)
+}
+
+impl Region {
+    pub fn new(centre: DVec3, half: DVec3, facet: u32, point: DVec3) -> Self {
+        let distance = (centre - point).length() + MARGIN;
+        let ends = corners(half).map(|corner| (centre + corner - point).length() + MARGIN);
+        let radius = half.length();
+        Self { centre, half, radius, facet, point, distance, least: f64::INFINITY, ends }
+    }
+
+    /// Radius of the ball about the centre whose triangles are kept, if the surface is near: three
+    /// radii and the distance. Balls of the box's parts lie in it.
+    pub fn ball(&self) -> Option<f64> {
+        (self.distance <= 2.0 * self.radius).then_some(self.distance + 3.0 * self.radius)
+    }
+
+    /// Whether something with this normal and height over the box's centre may be nearest.
+    #[inline]
+    fn reaches(&self, normal: DVec3, height: f64) -> bool {
+        // The corner where the heights along the normal are least compared with the point's.
+        let DVec3 { x, y, z } = normal * self.half;
+        let edges = [-x - y - z, x - y - z, -x + y - z, x + y - z];
+        let edges =
+            [edges[0], edges[1], edges[2], edges[3], -edges[3], -edges[2], -edges[1], -edges[0]];
+        let mut reaches = false;
+        for (edge, end) in edges.into_iter().zip(self.ends) {
+            reaches |= height + edge <= end + TIE;
+        }
+        reaches
+    }
+}
+
+/// The triangles of a mesh in the field's frame.
+#[derive(Debug)]
+pub(super) struct Facets {
+    pub all: Vec<Facet>,
+    tree: StaticTree,
+}
+
+impl Facets {
+    pub fn new(all: Vec<Facet>) -> Self {
+        let boxes: Vec<Bounds> = all.iter().map(|facet| Bounds::of(&facet.at)).collect();
+        let tree = StaticTree::new(&boxes);
+        Self { all, tree }
+    }
+
+    #[inline]
+    fn closest(&self, facet: u32, p: DVec3) -> DVec3 {
+        self.all[facet as usize].closest(p)
+    }
+
+    /// A triangle of a box, if it is one to keep.
+    #[inline]
+    fn kept(&self, region: &mut Region, facet: u32, point: DVec3) -> Option<Near> {
+        let of = &self.all[facet as usize];
+        let away = region.centre - point;
+        let length = away.length();
+        // On the triangle its own normal leads away from it.
+        let normal = if length > TIE { away / length } else { of.normal };
+        let distance = -of.support(region.centre, normal);
+        region.least = region.least.min(distance - MARGIN);
+        let is_kept = region.reaches(normal, distance)
+            || region.ball().is_some_and(|radius| distance <= radius + TIE);
+        is_kept.then_some(Near { facet, point, normal, distance })
+    }
+
+    /// The triangles of a box, appended to others.
+    pub fn gather(&self, centre: DVec3, half: DVec3, nears: &mut Vec<Near>) -> Region {
+        let to = |item: usize| (centre - self.closest(item as u32, centre)).length_squared();
+        let facet = self.tree.nearest(centre, to).map_or(0, |(item, _)| item as u32);
+        let mut region = Region::new(centre, half, facet, self.closest(facet, centre));
+        let seen = region;
+        let ball = region.ball().unwrap_or(0.0);
+        let keep = |bounds: &Bounds| {
+            let point = centre.clamp(bounds.low, bounds.high);
+            let away = centre - point;
+            let length = away.length();
+            length <= ball + TIE
+                || length <= 2.0 * seen.radius
+                || seen.reaches(away / length, length - MARGIN)
+        };
+        self.tree.visit_kept(&Frontier::whole(), keep, |item| {
+            let facet = item as u32;
+            nears.extend(self.kept(&mut region, facet, self.closest(facet, centre)));
+            true
+        });
+        region
+    }
+
+    /// The triangles of a part of a region, out of those of the region, appended.
+    pub fn narrow(
+        &self,
+        whole: &Region,
+        range: Range<usize>,
+        [centre, half]: [DVec3; 2],
+        nears: &mut Vec<Near>,
+    ) -> Region {
+        let moved = centre - whole.centre;
+        // Farther triangles neither reach the box nor lie in its ball.
+        let room = 3.0 * half.length() + 2.0 * TIE;
+        let (mut facet, mut point) = (whole.facet, whole.point);
+        let mut least_sq = (centre - point).length_squared();
+        let mut most = least_sq.sqrt() + room;
+        let start = nears.len();
+        for number in range {
+            let near = nears[number];
+            if near.distance + near.normal.dot(moved) > most {
+                continue;
+            }
+            let found = self.closest(near.facet, centre);
+            let square = (centre - found).length_squared();
+            if square < least_sq {
+                (facet, point, least_sq) = (near.facet, found, square);
+                most = square.sqrt() + room;
+            }
+            nears.push(Near { point: found, ..near });
+        }
+        let mut region = Region::new(centre, half, facet, point);
+        let mut end = start;
+        for number in start..nears.len() {
+            let Near { facet, point, .. } = nears[number];
+            if let Some(near) = self.kept(&mut region, facet, point) {
+                nears[end] = near;
+                end += 1;
+            }
+        }
+        nears.truncate(end);
+        region
+    }
+}
