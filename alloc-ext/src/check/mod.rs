@@ -4,7 +4,7 @@
 //! | file | proves or owns |
 //! | --- | --- |
 //! | `verify` | which structures a blob has, and what came of each proof |
-//! | `tree`, `hull`, `tight`, `triboxes`, `curve` | the claims of one structure each |
+//! | `tree`, `hull`, `tight`, `triboxes`, `curve`, `sdf` | the claims of one structure each |
 //! | `repair` | that a mesh is that of its file |
 //! | `enclosure` | that a hull encloses a mesh |
 //! | `file` | the file's triangles, before they were rounded, for proofs that hulls hold them |
@@ -29,6 +29,7 @@ mod manifold;
 mod near;
 mod planar;
 mod repair;
+mod sdf;
 mod tight;
 mod tree;
 mod triboxes;

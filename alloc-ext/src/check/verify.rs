@@ -4,7 +4,7 @@ use super::bytes::{check_header, entries, section};
 use super::curve::FilePolyline;
 use super::finding::Finding;
 use super::tree::prove_tree;
-use super::{curve, hull, tight, triboxes};
+use super::{curve, hull, sdf, tight, triboxes};
 use crate::mesh::{Input, KeyFrame, RawMesh};
 
 const BYTES: &str = "blob";
@@ -21,12 +21,13 @@ pub enum Against<'a> {
 }
 
 /// Kinds of the sections of each structure, by the format.
-const KINDS: [(&str, &[u32]); 5] = [
+const KINDS: [(&str, &[u32]); 6] = [
     ("hull hierarchy", &[1, 2, 3, 4, 5, 6, 7, 9, 10, 11, 22, 23]),
     (TREE, &[12, 13, 14, 15, 16, 17, 18, 24, 25, 26]),
     ("triboxes", &[19]),
     ("tight hulls", &[20]),
     ("curve", &[21, 27]),
+    ("distance field", &[28]),
 ];
 
 /// Proves a blob from its bytes and the mesh or the curves that it was built from. Every claim has
@@ -67,6 +68,7 @@ pub fn verify(bytes: &[u8], against: Against<'_>) -> Vec<Finding> {
                 out.push(Finding::failed(structure, "it is not of the given file".to_owned()));
             }
             (TREE, Against::Mesh(input, _)) => out.push(tree(bytes, input)),
+            ("distance field", Against::Mesh(input, _)) => out.push(sdf::verify(bytes, input)),
             ("triboxes", Against::Mesh(input, _)) => triboxes::verify(bytes, input, &mut out),
             ("tight hulls", Against::Mesh(input, _)) => tight::verify(bytes, input, &mut out),
             (_, Against::Mesh(input, keys)) => hull::verify(bytes, input, keys, &mut out),

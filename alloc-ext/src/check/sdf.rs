@@ -1,0 +1,66 @@
+//! Proof of a distance field from the blob's bytes and the mesh: every cell's errors hold for every
+//! point of the cell.
+//!
+//! | file | owns |
+//! | --- | --- |
+//! | `parse` | the numbers of the section, and the trilinear function of a cell |
+//! | `sides` | winding numbers of the mesh and of the file |
+//! | `boxes` | the proof of a cell, by boxes that are halved |
+//!
+//! All is computed in the field's units, which are those of the stored errors: a mesh's vertex is
+//! off by less than 2^-30 of them, and lengths are below 2^20.
+
+mod boxes;
+mod parse;
+mod sides;
+
+use super::bytes::check_header;
+use super::finding::Finding;
+use crate::mesh::Input;
+use boxes::{Cell, Unproved};
+use glam::DVec3;
+use parse::Field;
+use rayon::prelude::*;
+use sides::Sides;
+
+const SDF: &str = "distance field";
+
+/// Proves every cell.
+pub(super) fn verify(bytes: &[u8], input: Input<'_>) -> Finding {
+    match prove(bytes, input) {
+        Ok([cells, boxes]) => Finding::proved(
+            SDF,
+            "the mesh lies in the field; at every point of every cell the distance is within the \
+             cell's errors",
+            &[("cell", cells), ("box", boxes)],
+        ),
+        Err(Unproved::Wrong(words)) => Finding::failed(SDF, words),
+        Err(Unproved::Open(words)) => Finding::not_proved(SDF, words),
+    }
+}
+
+fn prove(bytes: &[u8], input: Input<'_>) -> Result<[usize; 2], Unproved> {
+    check_header(bytes).map_err(Unproved::Wrong)?;
+    let field = Field::parse(bytes).map_err(Unproved::Wrong)?;
+    let mesh = input.mesh;
+    let corners = |t: [u32; 3]| t.map(|v| field.place(mesh.positions[v as usize]));
+    let triangles: Vec<[DVec3; 3]> = mesh.all_triangles().map(corners).collect();
+    let end = field.end();
+    if let Some(out) = triangles.iter().flatten().find(|p| {
+        p.min_element() < -1.0 || !(p.x <= end.x + 1.0 && p.y <= end.y + 1.0 && p.z <= end.z + 1.0)
+    }) {
+        return Err(Unproved::Wrong(format!("the mesh leaves the field at {out:?}, in its units")));
+    }
+    let sides = if field.is_unsigned() { None } else { Some(Sides::of(mesh, &field)) };
+    // The mesh may be so far from the file's.
+    let moved = (input.moved + mesh.rounding) * field.per_unit * (1.0 + 1e-9);
+    let cells = field.cells.into_iter().product::<usize>();
+    let index = boxes::Grid::new(&triangles, field.cells);
+    let counts: Result<Vec<usize>, Unproved> = (0..cells)
+        .into_par_iter()
+        .map(|cell| {
+            Cell { field: &field, sides: sides.as_ref(), moved }.prove(cell, &triangles, &index)
+        })
+        .collect();
+    Ok([cells, counts?.iter().sum()])
+}
