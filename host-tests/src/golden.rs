@@ -10,6 +10,7 @@ use meshsweep::emit::source::{SourceNames, c_header, c_source, rust_module};
 use meshsweep::hull::{self, BuildOptions, Levels};
 use meshsweep::mesh::{KeyFrame, Mesh};
 use meshsweep::progress::Watch;
+use meshsweep::sdf::{self, SdfOptions};
 use meshsweep::tight::{self, ChainOptions};
 use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::Blob;
@@ -66,9 +67,15 @@ pub fn bracket_model(folder: &Path) -> Result<Vec<u8>, String> {
 }
 
 /// The distance field of the block with a slot.
+///
+/// # Panics
+/// Never: the mesh has an area.
 #[must_use]
 pub fn groove_field() -> Vec<u8> {
-    crate::generate::fields::any(1, meshsweep_core::SdfKind::Signed, [19, 20, 18], 0.0625)
+    let (positions, triangles) = groove_block();
+    let mesh = Mesh::new(positions, triangles);
+    let options = SdfOptions::default().with_bytes(8 << 10);
+    sdf::build(mesh.as_input(), &options, Watch::NONE).expect("an area").0.to_bytes()
 }
 
 /// The hierarchy for sweeps of a small torus with a hole in place of every fifth triangle.

@@ -37,9 +37,9 @@ pub(super) fn greatest(linear: &Linear, region: &Region) -> f64 {
 
 /// d − F is at least this in the box.
 pub(super) fn least(linear: &Linear, region: &Region, nears: &[Near]) -> f64 {
-    let least = nears.iter().fold(f64::INFINITY, |least, near| {
-        least.min(near.distance - extent(near.normal - linear.gradient, region.half))
-    });
+    let least = nears
+        .iter()
+        .fold(f64::INFINITY, |least, near| least.min(near.least(linear.gradient, region.half)));
     least - linear.value - linear.rest - MARGIN
 }
 
@@ -69,7 +69,8 @@ pub(super) fn most(linear: &Linear, region: &Region, nears: &[Near], enough: f64
         }
         // Its bound is the least at the corner where the mean is worst.
         let at = |near: &Near| near.distance + near.normal.dot(corners[corner]);
-        let Some(other) = nears.iter().min_by(|a, b| at(a).total_cmp(&at(b))) else { break };
+        let facets = nears.iter().filter(|near| near.facet().is_some());
+        let Some(other) = facets.min_by(|a, b| at(a).total_cmp(&at(b))) else { break };
         let apart = normal - other.normal;
         let square = apart.length_squared();
         if square < 1e-12 {
@@ -90,7 +91,7 @@ pub(super) fn most(linear: &Linear, region: &Region, nears: &[Near], enough: f64
 
 /// As [`most`], by the distance of the nearest triangle.
 pub(super) fn most_of_facet(linear: &Linear, region: &Region, facets: &Facets) -> f64 {
-    let facet = &facets.all[region.facet as usize];
+    let facet = facets.facet(region.facet);
     let over = corners(region.half).into_iter().fold(f64::NEG_INFINITY, |over, corner| {
         let p = region.centre + corner;
         over.max((p - facet.closest(p)).length() - linear.gradient.dot(corner))
@@ -106,16 +107,19 @@ pub(super) fn flat(
     nears: &[Near],
 ) -> Option<[f64; 2]> {
     let ball = region.ball()?;
-    let facet = |near: &Near| &facets.all[near.facet as usize];
-    let within = || nears.iter().filter(|near| near.distance <= ball + MARGIN);
-    if !facets.all[region.facet as usize].tells_side {
+    // Groups in the ball are open.
+    let within = || {
+        let of = |near: &'_ &Near| near.distance <= ball + MARGIN;
+        let facet = |near: &Near| Some((*near, facets.facet(near.facet()?)));
+        nears.iter().filter(of).filter_map(facet)
+    };
+    if !facets.facet(region.facet).tells_side {
         return None;
     }
-    let sum: DVec3 = within().map(|near| facet(near).normal).sum();
+    let sum: DVec3 = within().map(|(_, facet)| facet.normal).sum();
     let normal = sum.try_normalize()?;
     let mut off = MARGIN;
-    for near in within() {
-        let facet = facet(near);
+    for (near, facet) in within() {
         if !(facet.tells_side && facet.normal.dot(normal) > facet.doubt + MARGIN) {
             return None;
         }

@@ -7,12 +7,11 @@
 
 use super::bound::{flat, greatest, least, most, most_of_facet};
 use super::domain::CELL;
-use super::function::Trilinear;
+use super::function::{Linear, Trilinear};
 use super::region::{Near, Region, TIE, parts};
 use super::truth::{Place, Truth};
 use glam::DVec3;
 use meshsweep_core::SdfKind;
-use std::ops::Range;
 
 /// Most boxes of a cell: then boxes count as if they were of the least size. Cells that need so
 /// many are wide for another reason.
@@ -40,20 +39,18 @@ pub(super) struct Proof {
 /// The errors of a box that bounds show to suffice.
 fn needed(
     truth: &Truth<'_>,
-    function: &Trilinear,
-    corner: DVec3,
+    linear: &Linear,
     region: &Region,
     nears: &[Near],
     side: Option<Place>,
     wanted: Errors,
 ) -> Errors {
-    let linear = function.about(region.centre - corner, region.half);
     let negative = linear.negative();
     let facets = &truth.facets;
     let above = || {
-        let found = most(&linear, region, nears, wanted.high);
+        let found = most(linear, region, nears, wanted.high);
         if found > wanted.high && region.ball().is_some() {
-            found.min(most_of_facet(&linear, region, facets))
+            found.min(most_of_facet(linear, region, facets))
         } else {
             found
         }
@@ -67,10 +64,10 @@ fn needed(
             found
         }
     };
-    let to_zero = || greatest(&linear, region);
+    let to_zero = || greatest(linear, region);
     match (truth.kind, side) {
         (SdfKind::Surface, _) | (_, Some(Place::Outside)) => {
-            let low = (-least(&linear, region, nears)).min(to_zero());
+            let low = (-least(linear, region, nears)).min(to_zero());
             Errors { low, high: above() }
         }
         (SdfKind::Solid, Some(Place::Inside)) => Errors { low: to_zero(), high: f64::NEG_INFINITY },
@@ -81,7 +78,7 @@ fn needed(
             let low = if kind == SdfKind::Solid { to_zero() } else { f64::INFINITY };
             let mut errors = Errors { low, high: f64::INFINITY };
             let is_enough = |e: &Errors| e.low <= wanted.low && e.high <= wanted.high;
-            if let Some([least, most]) = flat(&linear, region, facets, nears) {
+            if let Some([least, most]) = flat(linear, region, facets, nears) {
                 errors = Errors { low: errors.low.min(-least), high: errors.high.min(most) };
             }
             if !is_enough(&errors) {
@@ -89,7 +86,7 @@ fn needed(
                 if errors.high > wanted.high {
                     errors.high = errors.high.min(above());
                 }
-                if errors.low > wanted.low {
+                if errors.low > wanted.low && kind == SdfKind::Signed {
                     errors.low = errors.low.min(below());
                 }
             }
@@ -128,26 +125,37 @@ impl<'a> Prover<'a> {
             proof: Proof { errors: wanted, ..Proof::default() },
         };
         let half = DVec3::splat(0.5 * CELL);
-        let region = truth.facets.gather(corner + half, half, &mut prover.nears);
-        prover.visit(&region, 0..prover.nears.len(), None);
+        let mut region = truth.facets.gather(corner + half, half, &mut prover.nears);
+        prover.visit(&mut region, 0, None);
         let Errors { low, high } = prover.proof.errors;
         prover.proof.is_widened = low > wanted.low || high > wanted.high;
         prover.proof
     }
 
-    fn visit(&mut self, region: &Region, range: Range<usize>, whole: Option<Place>) {
+    fn visit(&mut self, region: &mut Region, start: usize, whole: Option<Place>) {
         self.proof.boxes += 1;
-        let nears = &self.nears[range.clone()];
+        let Self { truth, function, corner, nears, .. } = self;
         let side = whole.or_else(|| {
-            let ties = || nears.iter().filter(|near| near.distance <= region.distance + TIE);
-            (region.least > region.radius).then(|| self.truth.side(region.centre, ties().copied()))
+            let ties = nears[start..].iter().filter(|near| near.distance <= region.distance + TIE);
+            (region.least > region.radius).then(|| truth.side(region.centre, ties.copied()))
         });
         let wanted = self.proof.errors;
-        let Self { truth, function, corner, .. } = self;
-        let found = needed(truth, function, *corner, region, nears, side, wanted);
+        let is_enough = |found: &Errors| found.low <= wanted.low && found.high <= wanted.high;
+        let linear = function.about(region.centre - *corner, region.half);
+        let mut found = needed(truth, &linear, region, &nears[start..], side, wanted);
+        // Distances inside are negative.
+        let (towards, by_least): (_, fn(&Errors, &Errors) -> bool) = match (side, truth.kind) {
+            (Some(Place::Outside), _) => (linear, |found, wanted| found.low > wanted.low),
+            (Some(Place::Inside), SdfKind::Signed) => {
+                (linear.negative(), |found, wanted| found.high > wanted.high)
+            }
+            _ => (linear, |_, _| false),
+        };
+        while by_least(&found, &wanted) && truth.facets.open_least(region, &towards, start, nears) {
+            found = needed(truth, &linear, region, &nears[start..], side, wanted);
+        }
         let is_last = region.radius <= self.floor || self.proof.boxes >= MOST_BOXES;
-        let suffices = found.low <= wanted.low && found.high <= wanted.high;
-        if suffices || is_last {
+        if is_enough(&found) || is_last {
             let errors = &mut self.proof.errors;
             errors.low = errors.low.max(found.low);
             errors.high = errors.high.max(found.high);
@@ -156,11 +164,11 @@ impl<'a> Prover<'a> {
         }
         let half = 0.5 * region.half;
         for centre in parts(region.centre, region.half) {
-            let start = self.nears.len();
-            let part =
-                self.truth.facets.narrow(region, range.clone(), [centre, half], &mut self.nears);
-            self.visit(&part, start..self.nears.len(), side);
-            self.nears.truncate(start);
+            let end = self.nears.len();
+            let boxed = [centre, half];
+            let mut part = self.truth.facets.narrow(region, start..end, boxed, &mut self.nears);
+            self.visit(&mut part, end, side);
+            self.nears.truncate(end);
         }
     }
 }

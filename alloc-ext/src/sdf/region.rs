@@ -8,9 +8,15 @@
 //! difference is convex: the triangle is nearest nowhere, and no part of the box need look at it.
 //!
 //! Near the surface the triangles within a ball are kept too, see [`Region::ball`].
+//!
+//! *Groups.* Eight neighbouring triangles are a group, and what is said of a triangle holds for the
+//! box of a group too. Where a group is far from the nearest point it stands for its triangles. It
+//! is opened where it may have the nearest point, where it lies in the ball, and where its bound is
+//! the least of all.
 
 use super::facet::Facet;
-use crate::geom::{Bounds, Frontier, StaticTree};
+use super::function::Linear;
+use crate::geom::{Bounds, Frontier, StaticTree, spatial_order};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -24,16 +30,37 @@ pub(super) const MARGIN: f64 = 1.0 / (1 << 20) as f64;
 /// Triangles that are this much farther than the nearest one count as nearest too, units.
 pub(super) const TIE: f64 = 1.0 / (1 << 10) as f64;
 
-/// A triangle that may be nearest somewhere in a box.
+/// Triangles of a group.
+const GROUP: usize = 8;
+
+/// Mark of a group among triangles.
+const IS_GROUP: u32 = 1 << 31;
+
+/// A triangle that may be nearest somewhere in a box, or a group of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
-    pub facet: u32,
-    /// The point of it that is closest to the box's centre.
+    facet: u32,
+    /// The point of it, or of the group's box, that is closest to the box's centre.
     pub point: DVec3,
     /// Unit vector from there to the centre.
     pub normal: DVec3,
     /// Height of the centre over the triangle along it: no more than its distance.
     pub distance: f64,
+}
+
+impl Near {
+    /// The triangle; `None` of a group.
+    #[inline]
+    pub fn facet(&self) -> Option<u32> {
+        (self.facet & IS_GROUP == 0).then_some(self.facet)
+    }
+
+    /// The triangle's or group's distance less a linear function is at least this in a box about
+    /// the same centre, beside the function's value there.
+    #[inline]
+    pub fn least(&self, gradient: DVec3, half: DVec3) -> f64 {
+        self.distance - (self.normal - gradient).abs().dot(half)
+    }
 }
 
 /// A box and its nearest triangle.
@@ -101,20 +128,39 @@ impl Region {
 /// The triangles of a mesh in the field's frame.
 #[derive(Debug)]
 pub(super) struct Facets {
-    pub all: Vec<Facet>,
+    all: Vec<Facet>,
     tree: StaticTree,
+    /// Boxes of groups of triangles.
+    groups: Vec<Bounds>,
+    tree_of_groups: StaticTree,
 }
 
 impl Facets {
     pub fn new(all: Vec<Facet>) -> Self {
-        let boxes: Vec<Bounds> = all.iter().map(|facet| Bounds::of(&facet.at)).collect();
-        let tree = StaticTree::new(&boxes);
-        Self { all, tree }
+        let of = |facet: &Facet| Bounds::of(&facet.at);
+        let boxes: Vec<Bounds> = all.iter().map(of).collect();
+        let order = spatial_order(&boxes);
+        let all: Vec<Facet> = order.into_iter().map(|facet| all[facet as usize]).collect();
+        let boxes: Vec<Bounds> = all.iter().map(of).collect();
+        let join = |boxes: &[Bounds]| boxes.iter().fold(Bounds::EMPTY, |all, &b| all.join(b));
+        let groups: Vec<Bounds> = boxes.chunks(GROUP).map(join).collect();
+        let tree_of_groups = StaticTree::new(&groups);
+        Self { tree: StaticTree::new(&boxes), all, groups, tree_of_groups }
+    }
+
+    pub fn facet(&self, facet: u32) -> &Facet {
+        &self.all[facet as usize]
     }
 
     #[inline]
     fn closest(&self, facet: u32, p: DVec3) -> DVec3 {
         self.all[facet as usize].closest(p)
+    }
+
+    /// The triangles of a group.
+    fn members(&self, group: u32) -> Range<u32> {
+        let first = (group & !IS_GROUP) * GROUP as u32;
+        first..(first + GROUP as u32).min(self.all.len() as u32)
     }
 
     /// A triangle of a box, if it is one to keep.
@@ -132,6 +178,30 @@ impl Facets {
         is_kept.then_some(Near { facet, point, normal, distance })
     }
 
+    /// Appends a group of a box, or its triangles, if they are to be kept.
+    fn keep_group(&self, region: &mut Region, facet: u32, nears: &mut Vec<Near>) {
+        let bounds = &self.groups[(facet & !IS_GROUP) as usize];
+        let point = region.centre.clamp(bounds.low, bounds.high);
+        let away = region.centre - point;
+        let length = away.length();
+        let open = region.ball().unwrap_or(0.0).max(region.distance) + TIE;
+        if length <= open + MARGIN {
+            self.open(region, facet, nears);
+            return;
+        }
+        let (normal, distance) = (away / length, length - MARGIN);
+        if region.reaches(normal, distance) {
+            nears.push(Near { facet, point, normal, distance });
+        }
+    }
+
+    fn open(&self, region: &mut Region, group: u32, nears: &mut Vec<Near>) {
+        for facet in self.members(group) {
+            let point = self.closest(facet, region.centre);
+            nears.extend(self.kept(region, facet, point));
+        }
+    }
+
     /// The triangles of a box, appended to others.
     pub fn gather(&self, centre: DVec3, half: DVec3, nears: &mut Vec<Near>) -> Region {
         let to = |item: usize| (centre - self.closest(item as u32, centre)).length_squared();
@@ -140,16 +210,14 @@ impl Facets {
         let seen = region;
         let ball = region.ball().unwrap_or(0.0);
         let keep = |bounds: &Bounds| {
-            let point = centre.clamp(bounds.low, bounds.high);
-            let away = centre - point;
+            let away = centre - centre.clamp(bounds.low, bounds.high);
             let length = away.length();
             length <= ball + TIE
                 || length <= 2.0 * seen.radius
                 || seen.reaches(away / length, length - MARGIN)
         };
-        self.tree.visit_kept(&Frontier::whole(), keep, |item| {
-            let facet = item as u32;
-            nears.extend(self.kept(&mut region, facet, self.closest(facet, centre)));
+        self.tree_of_groups.visit_kept(&Frontier::whole(), keep, |group| {
+            self.keep_group(&mut region, group as u32 | IS_GROUP, nears);
             true
         });
         region
@@ -166,33 +234,88 @@ impl Facets {
         let moved = centre - whole.centre;
         // Farther triangles neither reach the box nor lie in its ball.
         let room = 3.0 * half.length() + 2.0 * TIE;
-        let (mut facet, mut point) = (whole.facet, whole.point);
-        let mut least_sq = (centre - point).length_squared();
-        let mut most = least_sq.sqrt() + room;
+        let mut best = ((whole.facet, whole.point), (centre - whole.point).length_squared());
+        let mut most = best.1.sqrt() + room;
         let start = nears.len();
         for number in range {
             let near = nears[number];
             if near.distance + near.normal.dot(moved) > most {
                 continue;
             }
-            let found = self.closest(near.facet, centre);
-            let square = (centre - found).length_squared();
-            if square < least_sq {
-                (facet, point, least_sq) = (near.facet, found, square);
-                most = square.sqrt() + room;
+            let (point, square, members) = match near.facet() {
+                Some(facet) => {
+                    let point = self.closest(facet, centre);
+                    (point, (centre - point).length_squared(), facet..facet + 1)
+                }
+                None => {
+                    let bounds = &self.groups[(near.facet ^ IS_GROUP) as usize];
+                    let point = centre.clamp(bounds.low, bounds.high);
+                    (point, (centre - point).length_squared(), self.members(near.facet))
+                }
+            };
+            if square <= most * most {
+                nears.push(Near { point, ..near });
             }
-            nears.push(Near { point: found, ..near });
+            if square >= best.1 {
+                continue;
+            }
+            for facet in members {
+                let point =
+                    if near.facet().is_some() { point } else { self.closest(facet, centre) };
+                let square = (centre - point).length_squared();
+                if square < best.1 {
+                    best = ((facet, point), square);
+                    most = square.sqrt() + room;
+                }
+            }
         }
+        let (facet, point) = best.0;
         let mut region = Region::new(centre, half, facet, point);
+        let end = nears.len();
+        for number in start..end {
+            let Near { facet, point, .. } = nears[number];
+            if facet & IS_GROUP == 0 {
+                nears.extend(self.kept(&mut region, facet, point));
+            } else {
+                self.keep_group(&mut region, facet, nears);
+            }
+        }
+        nears.drain(start..end);
+        region
+    }
+
+    /// Opens the groups whose bound of the distance less a linear function is the least. The
+    /// triangles of the region are all from `start`. Whether there were any.
+    pub fn open_least(
+        &self,
+        region: &mut Region,
+        linear: &Linear,
+        start: usize,
+        nears: &mut Vec<Near>,
+    ) -> bool {
+        let least = |near: &Near| near.least(linear.gradient, region.half);
+        let facets = nears[start..].iter().filter(|near| near.facet().is_some());
+        let bound = facets.map(least).fold(f64::INFINITY, f64::min);
+        let opened: Vec<u32> = nears[start..]
+            .iter()
+            .filter(|near| near.facet().is_none() && least(near) < bound)
+            .map(|near| near.facet)
+            .collect();
+        if opened.is_empty() {
+            return false;
+        }
         let mut end = start;
         for number in start..nears.len() {
-            let Near { facet, point, .. } = nears[number];
-            if let Some(near) = self.kept(&mut region, facet, point) {
+            let near = nears[number];
+            if near.facet().is_some() || !opened.contains(&near.facet) {
                 nears[end] = near;
                 end += 1;
             }
         }
         nears.truncate(end);
-        region
+        for group in opened {
+            self.open(region, group, nears);
+        }
+        true
     }
 }

@@ -62,7 +62,7 @@ impl<'a> Truth<'a> {
     fn side_by(&self, p: DVec3, nears: impl Iterator<Item = Near>) -> Option<Place> {
         let mut side = None;
         for near in nears {
-            let facet = &self.facets.all[near.facet as usize];
+            let facet = self.facets.facet(near.facet()?);
             let away = p - near.point;
             let height = facet.normal.dot(away);
             let is_certain = height.abs() > facet.doubt * away.length() + MARGIN;

@@ -85,6 +85,7 @@ const BUILDER: [(&str, &[&str]); 26] = [
     ),
     ("tribox", BENEATH),
     ("curve", BENEATH),
+    ("sdf", BENEATH),
     (
         "cut",
         &["counted", "emit", "error", "lp", "mesh", "surface", "bvh", "hull", "tight", "tribox"],
@@ -93,7 +94,7 @@ const BUILDER: [(&str, &[&str]); 26] = [
         "builder",
         &[
             "counted", "number", "emit", "error", "progress", "mesh", "surface", "load",
-            "collapse", "bvh", "hull", "tight", "tribox", "curve",
+            "collapse", "bvh", "hull", "tight", "tribox", "curve", "sdf",
         ],
     ),
     (

@@ -1,4 +1,8 @@
-//! Distance fields: the interval of every point is that of the stored numbers, whatever the bytes.
+//! Distance fields: what the builder proves and the interval of every point, whatever the bytes.
 
 mod bytes;
+mod decoded;
 mod kernel;
+mod options;
+mod size;
+mod truth;

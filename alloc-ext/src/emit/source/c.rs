@@ -56,6 +56,9 @@ pub fn c_header(blob: &Blob<'_>, names: SourceNames<'_>) -> String {
         let value = u8::from(is_fence).to_string();
         define("IS_FENCE", value, "whether msw_curve_signed_distance answers");
     }
+    if let Some(unit) = facts.field_unit {
+        define("SDF_UNIT", float(unit), "of the distance field, in the mesh's unit");
+    }
     if let Some(error) = facts.surface_error {
         define("SURFACE_ERROR", float(error), "most distance of the mesh from the stored surface");
     }

@@ -76,6 +76,8 @@ struct Facts {
     has_tree: bool,
     /// Tight hulls.
     hulls: u32,
+    /// A unit of the distance field.
+    field_unit: Option<f32>,
     /// A structure that a `static` cannot hold.
     has_more: bool,
     is_closed: Option<bool>,
@@ -111,6 +113,7 @@ impl Facts {
             sweep: hull.map(|hull| hull.sweep_entries()),
             has_tree: tree.is_some(),
             hulls: tight.map_or(0, |hulls| hulls.count()),
+            field_unit: blob.sdf().ok().map(|field| field.unit()),
             has_more: hull.is_some() || triboxes.is_some() || curve.is_some(),
             is_closed: tree.map(|tree| tree.is_closed()),
             has_sides: tree.map(|tree| tree.has_sides()),

@@ -26,7 +26,7 @@ pub(crate) fn rust_name(name: &str) -> String {
 fn items(facts: &Facts, names: SourceNames<'_>) -> String {
     let mut out = format!("use meshsweep_core::{{{}}};\n\n", imports(facts).join(", "));
     let first = Some(bytes(facts, names));
-    for part in [first, tree(facts), hulls(facts), sweep(facts), more(facts)] {
+    for part in [first, tree(facts), hulls(facts), field(facts), sweep(facts), more(facts)] {
         out.extend(part);
     }
     out
@@ -144,6 +144,7 @@ fn imports(facts: &Facts) -> Vec<&'static str> {
         (facts.has_tree, "Bvh"),
         (facts.has_more, "OpenError"),
         (true, "Scratch"),
+        (facts.field_unit.is_some(), "Sdf"),
         (facts.hulls > 0, "TightHull"),
         (facts.hulls > 0, "TightHulls"),
     ];
@@ -204,6 +205,18 @@ fn hulls(facts: &Facts) -> Option<String> {
                  Some(hull) => hull,\n    \
                  None => panic!(\"the blob has no tight hulls\"),\n}};\n",
             facts.hulls
+        )
+    })
+}
+
+fn field(facts: &Facts) -> Option<String> {
+    facts.field_unit.map(|unit| {
+        format!(
+            "\n/// The distance field. It needs no scratch. A unit of it is {unit:?}.\n\
+             #[allow(dead_code)]\n\
+             pub static FIELD: Sdf<'static> = match Sdf::open_trusted(&BYTES.0) {{\n    \
+                 Ok(field) => field,\n    \
+                 Err(_) => panic!(\"the blob has no distance field\"),\n}};\n"
         )
     })
 }

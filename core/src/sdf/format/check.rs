@@ -4,8 +4,7 @@ use super::layout::{BOOK, CELL_UNITS, MOST_BASE, MOST_STEP, SDF_BYTES, field};
 use super::view::{Sdf, SdfKind};
 use crate::format::Contradiction;
 use crate::format::layout::SectionKind;
-use crate::format::{Bytes, OpenError, SectionTable};
-use crate::num::each;
+use crate::format::{Bytes, OpenError, SectionTable, ok, some};
 
 impl<'a> Sdf<'a> {
     /// Opens the distance field of a blob where it lies, and checks it: CRC, header, lengths. Any
@@ -24,38 +23,50 @@ impl<'a> Sdf<'a> {
         Sdf::locate(&table)
     }
 
-    /// The field of bytes that were checked before.
-    pub(crate) fn view(bytes: &'a [u8]) -> Result<Sdf<'a>, OpenError> {
-        Sdf::locate(&SectionTable::view(bytes)?)
+    /// Opens the field of an image that was verified before, and checks header and lengths only. It
+    /// is a constant function: a `static` field costs no start-up, and the compiler refuses bytes
+    /// that are no field.
+    ///
+    /// Verified means as for [`Bvh::open_trusted`](crate::Bvh::open_trusted). Of bytes that were
+    /// changed since, any answer may be wrong, and none panics.
+    ///
+    /// Cost: none in a constant; else some hundred instructions.
+    ///
+    /// # Errors
+    /// [`OpenError`]; [`OpenError::MissingSection`] if the blob was built without a field.
+    pub const fn open_trusted(bytes: &'a [u8]) -> Result<Sdf<'a>, OpenError> {
+        Sdf::locate(&ok!(SectionTable::open(bytes)))
     }
 
-    /// All there is to check of the bytes is their number: any code and any error is sound.
-    fn locate(table: &SectionTable<'a>) -> Result<Sdf<'a>, OpenError> {
+    /// The field of bytes that were checked before.
+    pub(crate) const fn view(bytes: &'a [u8]) -> Result<Sdf<'a>, OpenError> {
+        Sdf::locate(&ok!(SectionTable::view(bytes)))
+    }
+
+    /// All there is to check of codes and errors is their number: any of them is sound.
+    const fn locate(table: &SectionTable<'a>) -> Result<Sdf<'a>, OpenError> {
         let data = table.bytes(SectionKind::Sdf);
         let malformed = table.malformed(SectionKind::Sdf);
-        let (head, rest) = data.split_at_checked(SDF_BYTES).ok_or(malformed)?;
+        let (head, rest) = ok!(data.split_at_checked(SDF_BYTES), malformed);
         let header = Bytes(head);
-        let book = |at: usize| -> Option<&'a [[u8; 2]; BOOK]> {
-            header.slice(at, 2 * BOOK)?.as_chunks().0.first_chunk()
-        };
-        let (low, high) = (book(field::LOW), book(field::HIGH));
-        let (Some(low), Some(high)) = (low, high) else { return Err(malformed) };
-        let byte = |at: usize| header.u8(at).unwrap_or(0);
-        if byte(field::RESERVED) != 0 || byte(field::RESERVED_2) != 0 {
+        let (low, high) =
+            (ok!(book(header, field::LOW), malformed), ok!(book(header, field::HIGH), malformed));
+        let [x, y, z] = ok!(header.array::<3>(field::CELLS), malformed);
+        let [kind, reserved] = ok!(header.array::<2>(field::KIND), malformed);
+        if reserved != 0 || ok!(header.u8(field::RESERVED_2), malformed) != 0 {
             return Err(OpenError::Reserved);
         }
-        let wrong = |what: Contradiction| OpenError::Counts { what };
-        let cells = [0, 1, 2].map(|axis| usize::from(byte(field::CELLS + axis)));
-        let kind = SdfKind::ALL.get(usize::from(byte(field::KIND)));
-        let (Some(&kind), false) = (kind, cells.contains(&0)) else {
-            return Err(wrong(Contradiction::FieldCells));
-        };
-        let step = header.u16(field::STEP).unwrap_or(0);
+        let kind =
+            ok!(SdfKind::from_code(kind), OpenError::Counts { what: Contradiction::FieldCells });
+        if x == 0 || y == 0 || z == 0 {
+            return Err(OpenError::Counts { what: Contradiction::FieldCells });
+        }
+        let step = ok!(header.u16(field::STEP), malformed);
         let base = header.word(field::BASE).cast_signed();
         if step == 0 || step > MOST_STEP || base.unsigned_abs() > MOST_BASE.unsigned_abs() {
-            return Err(wrong(Contradiction::FieldStep));
+            return Err(OpenError::Counts { what: Contradiction::FieldStep });
         }
-        let origin = header.corner(field::ORIGIN);
+        let origin @ [a, b, c] = header.corner(field::ORIGIN);
         let per_unit = f32::from_bits(header.word(field::PER_UNIT));
         let unit = f32::from_bits(header.word(field::UNIT));
         // Of the inverse rounded to nearest, the product is within one unit of rounding.
@@ -64,14 +75,16 @@ impl<'a> Sdf<'a> {
             && per_unit > 0.0
             && unit.is_normal()
             && defect <= f32::EPSILON
-            && origin.iter().all(|x| x.is_finite());
+            && a.is_finite()
+            && b.is_finite()
+            && c.is_finite();
         if !is_sound {
-            return Err(wrong(Contradiction::FieldUnit));
+            return Err(OpenError::Counts { what: Contradiction::FieldUnit });
         }
-        let [x, y, z] = cells;
+        let (x, y, z) = (x as usize, y as usize, z as usize);
         // At most 2^24 each.
         let (row, layer) = (x + 1, (x + 1) * (y + 1));
-        let (codes, errors) = rest.split_at_checked(layer * (z + 1)).ok_or(malformed)?;
+        let (codes, errors) = ok!(rest.split_at_checked(layer * (z + 1)), malformed);
         if errors.len() != x * y * z {
             return Err(malformed);
         }
@@ -84,13 +97,23 @@ impl<'a> Sdf<'a> {
             per_unit,
             unit,
             base,
-            step: i32::from(step),
-            least: if kind == SdfKind::Signed { i32::MIN } else { 0 },
-            units: each(cells, |cells| cells as u32 * CELL_UNITS.unsigned_abs()),
+            step: step as i32,
+            least: if matches!(kind, SdfKind::Signed) { i32::MIN } else { 0 },
+            units: [units(x), units(y), units(z)],
             row: row as u32,
             layer: layer as u32,
             cell_layer: (x * y) as u32,
             kind,
         })
     }
+}
+
+/// Units along so many cells.
+const fn units(cells: usize) -> u32 {
+    cells as u32 * CELL_UNITS.unsigned_abs()
+}
+
+/// The errors of a book.
+const fn book(header: Bytes<'_>, at: usize) -> Option<&[[u8; 2]; BOOK]> {
+    some!(header.slice(at, 2 * BOOK)).as_chunks().0.first_chunk()
 }

@@ -24,6 +24,15 @@ impl SdfKind {
     /// All kinds, in the order of their codes.
     pub const ALL: [SdfKind; 3] = [SdfKind::Surface, SdfKind::Signed, SdfKind::Solid];
 
+    pub(super) const fn from_code(code: u8) -> Option<SdfKind> {
+        match code {
+            0 => Some(SdfKind::Surface),
+            1 => Some(SdfKind::Signed),
+            2 => Some(SdfKind::Solid),
+            _ => None,
+        }
+    }
+
     /// The value of `meshsweep build --sdf-kind` that builds it.
     pub const fn name(self) -> &'static str {
         match self {
@@ -130,7 +139,7 @@ pub struct Sdf<'a> {
 
 impl Sdf<'_> {
     /// What the distances mean.
-    pub fn kind(&self) -> SdfKind {
+    pub const fn kind(&self) -> SdfKind {
         self.kind
     }
 
@@ -140,7 +149,7 @@ impl Sdf<'_> {
     }
 
     /// A unit in input units, rounded to nearest. A cell has 2048 units along each axis.
-    pub fn unit(&self) -> f32 {
+    pub const fn unit(&self) -> f32 {
         self.unit
     }
 

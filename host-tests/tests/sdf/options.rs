@@ -1,0 +1,71 @@
+//! Options of a field, and meshes that it is refused for.
+
+use meshsweep::builder::{For, SdfKind, Stage, Topic};
+use meshsweep::mesh::RawMesh;
+use meshsweep::{BuildError, Builder, Built};
+use meshsweep_host_tests::generate::{Triangles, block, scaled};
+use std::ops::ControlFlow;
+
+fn build(mesh: &Triangles, builder: Builder<'_>) -> Result<Built, BuildError> {
+    builder.serve(For::Sdf).sdf_bytes(512).build(RawMesh::from_f32(&mesh.0, &mesh.1))
+}
+
+fn open_box() -> Triangles {
+    let (positions, triangles) = block([0.0; 3], [3.0, 2.0, 1.0]);
+    (positions, triangles[..10].to_vec())
+}
+
+#[test]
+fn a_closed_mesh_is_signed_and_an_open_one_is_not_and_says_so() {
+    let closed = build(&block([0.0; 3], [1.0; 3]), Builder::new()).expect("builds");
+    assert_eq!(closed.blob().sdf().expect("a field").kind(), SdfKind::Signed);
+    let open = build(&open_box(), Builder::new()).expect("builds");
+    assert_eq!(open.blob().sdf().expect("a field").kind(), SdfKind::Surface);
+    let says = |built: &Built| {
+        built.report_on(Topic::Sdf).any(|note| note.text.contains("the mesh is not closed"))
+    };
+    assert!(says(&open) && !says(&closed));
+}
+
+#[test]
+fn an_open_mesh_has_no_field_with_sides() {
+    for kind in [SdfKind::Signed, SdfKind::Solid] {
+        let refused = build(&open_box(), Builder::new().sdf_kind(kind)).expect_err("refused");
+        assert_eq!(refused, BuildError::NoSides { kind: kind.name() });
+    }
+}
+
+#[test]
+fn a_field_without_a_normal_unit_is_refused() {
+    let tiny = scaled(&block([0.0; 3], [1.0; 3]), 1e-38);
+    let refused = build(&tiny, Builder::new()).expect_err("refused");
+    assert!(matches!(refused, BuildError::FieldUnit { .. }), "{refused}");
+    let huge = build(&block([0.0; 3], [1e38; 3]), Builder::new().sdf_margin(3.3e38));
+    assert_eq!(huge.expect_err("refused"), BuildError::MarginTooLarge);
+}
+
+#[test]
+fn a_margin_is_covered() {
+    let built = build(&block([0.0; 3], [1.0; 3]), Builder::new().sdf_margin(7.0)).expect("builds");
+    let [low, high] = built.blob().sdf().expect("a field").bounds();
+    assert!(low.iter().all(|&x| x <= -7.0) && high.iter().all(|&x| x >= 8.0), "{low:?} {high:?}");
+}
+
+#[test]
+fn options_of_a_field_need_it() {
+    let (positions, triangles) = block([0.0; 3], [1.0; 3]);
+    let raw = RawMesh::from_f32(&positions, &triangles);
+    let refused = Builder::new().sdf_bytes(512).build(raw).expect_err("refused");
+    assert!(matches!(refused, BuildError::Option { option: "--sdf", .. }), "{refused}");
+}
+
+#[test]
+fn a_build_ends_when_it_is_told_to() {
+    let mut calls = 0;
+    let stop = |stage: Stage, _: f64| {
+        calls += usize::from(stage == Stage::Sdf);
+        if calls > 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let refused = build(&block([0.0; 3], [1.0; 3]), Builder::new().on_progress(stop));
+    assert_eq!(refused.expect_err("cancelled"), BuildError::Cancelled);
+}
