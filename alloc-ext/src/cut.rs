@@ -55,7 +55,9 @@ pub fn cut_blob(blob: &Blob<'_>, keep: &Keep) -> Result<Vec<u8>, BuildError> {
     }
     let triboxes = tribox::cut(blob, keep.triboxes.unwrap_or(u32::MAX));
     let tight = tight::cut(blob, keep.tight.unwrap_or(u32::MAX));
-    let structures = [hierarchy, frames, tree, triboxes, tight];
+    // It is that of the mesh itself, whatever is cut.
+    let field = whole(SectionKind::is_sdf);
+    let structures = [hierarchy, frames, tree, triboxes, tight, field];
     Ok(assemble(structures.iter().flatten()))
 }
 
