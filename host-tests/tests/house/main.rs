@@ -12,7 +12,7 @@ use arrows::House;
 use source::{collect, root, without_comments};
 
 /// The folders of `core/src`, each with the folders that it may use.
-const CORE: [(&str, &[&str]); 10] = [
+const CORE: [(&str, &[&str]); 11] = [
     ("num", &[]),
     ("geom", &["num"]),
     ("format", &["num", "geom"]),
@@ -22,7 +22,8 @@ const CORE: [(&str, &[&str]); 10] = [
     ("tribox", &["num", "geom", "format", "query"]),
     ("curve", &["num", "geom", "format", "query"]),
     ("tight", &["num", "geom", "format", "query", "bvh"]),
-    ("blob", &["num", "geom", "format", "query", "bvh", "hull", "tribox", "curve", "tight"]),
+    ("sdf", &["num", "geom", "format", "query"]),
+    ("blob", &["num", "geom", "format", "query", "bvh", "hull", "tribox", "curve", "tight", "sdf"]),
 ];
 
 /// Folders that all structures of the builder may use.
@@ -48,7 +49,7 @@ const BENEATH: &[&str] = &[
 /// every run. `cut`, `trade` and `builder` are above: they know all structures. `load` makes a clean
 /// mesh of a file for them. `check` proves the others' work and shares nothing with them but meshes.
 /// `trade` measures distances by it.
-const BUILDER: [(&str, &[&str]); 26] = [
+const BUILDER: [(&str, &[&str]); 27] = [
     ("counted", &[]),
     ("number", &[]),
     ("emit", &[]),
