@@ -4,7 +4,8 @@
 //! mesh file ─ mesh ─ surface ─┬─ bvh      boxes over triangle fans      ─┐
 //!                             ├─ hull     edge collapses, split tables   │
 //!                             ├─ tight    hulls shrunk onto the mesh     ├─ emit ─ blob
-//!                             └─ tribox   bounds of 18 planes            │
+//!                             ├─ tribox   bounds of 18 planes            │
+//!                             └─ sdf      a lattice of distances         │
 //! CSV of points ─────────────── curve     runs of points in capsules     ─┘
 //! ```
 //!
@@ -22,7 +23,7 @@
 //! | [`collapse`] | edge collapses: the loop, the star, where the vertex goes |
 //! | [`load`] | a mesh file in one unit, on a hull's grid, repaired |
 //! | `hausdorff` | certified distances between two meshes |
-//! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`] | one structure each, as in core |
+//! | [`bvh`], [`hull`], [`tight`], [`tribox`], [`curve`], [`sdf`] | one structure each, as in core |
 //! | [`emit`] | sections to bytes; it knows no builder |
 //! | [`builder`] | from options or a recipe, and a mesh, to a blob in memory: what the program does |
 //! | [`progress`] | how much of a build is done, and whether to go on |

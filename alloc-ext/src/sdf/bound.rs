@@ -10,8 +10,8 @@
 //! are convex: the eight corners are all to be looked at. A mean of two points on both sides of a
 //! ridge of the distance is of second order there, where each alone is not.
 //!
-//! *Flat.* Let all of the surface within R = d(c) + 3r of the centre lie between the planes
-//! |n·(y − q)| ≤ δ ≤ r/2, and let all of its triangles there have winding number 0 in front, 1
+//! *Flat.* Let all of the surface within R = d(c) + 2.3r of the centre lie between the planes
+//! |n·(y − q)| ≤ δ ≤ r/4, and let all of its triangles there have winding number 0 in front, 1
 //! behind, and face along *n*. Then |s(x) − n·(x − q)| ≤ δ in the box. For d(x) ≤ d(c) + r, so the
 //! nearest point is in the ball, and between the planes. Above both planes there is no surface in
 //! the ball, and what is above is connected; so is what is below. A line along *n* through a place
@@ -47,7 +47,10 @@ pub(super) fn least(linear: &Linear, region: &Region, nears: &[Near]) -> f64 {
 pub(super) fn most(linear: &Linear, region: &Region, nears: &[Near], enough: f64) -> f64 {
     let offset = linear.rest - linear.value + MARGIN;
     let corners = corners(region.half);
-    let rises = corners.map(|corner| linear.gradient.dot(corner));
+    let mut rises = [0.0; 8];
+    for (rise, corner) in rises.iter_mut().zip(corners) {
+        *rise = linear.gradient.dot(corner);
+    }
     let worst = |ends: &[f64; 8]| {
         let mut worst = (f64::NEG_INFINITY, 0);
         for corner in 0..8 {
@@ -106,7 +109,7 @@ pub(super) fn flat(
     facets: &Facets,
     nears: &[Near],
 ) -> Option<[f64; 2]> {
-    let ball = region.ball()?;
+    let ball = region.ball().filter(|_| region.is_open)?;
     // Groups in the ball are open.
     let within = || {
         let of = |near: &'_ &Near| near.distance <= ball + MARGIN;
@@ -126,7 +129,7 @@ pub(super) fn flat(
         let length = (region.centre - near.point).length();
         let [low, high] = facet.heights(region.point, normal, near.point, ball + length + MARGIN);
         off = off.max(high + MARGIN).max(MARGIN - low);
-        if off > 0.5 * region.radius {
+        if off > 0.25 * region.radius {
             return None;
         }
     }

@@ -23,12 +23,16 @@ use std::time::{Duration, Instant};
 /// Bytes of a field unless told otherwise.
 pub const BYTES: u32 = 16 << 10;
 
-/// Part of the diagonal by which wanted errors are above those of the samples, at least. Samples
-/// miss what lies between them, and a proof without slack never ends.
-const SLACK: f64 = 1e-4;
+/// Wanted errors are above those of the samples, at least by the greater of so many units and of a
+/// part of the diagonal. Samples miss what lies between them, and a proof without slack never ends.
+const SLACK: [f64; 2] = [CELL / 400.0, 1e-4];
 
-/// Boxes of no larger radius are not halved, as a part of the diagonal.
-const FLOOR: f64 = 3e-4;
+/// Boxes of no larger radius are not halved: so many units, and a part of the diagonal.
+const FLOOR: [f64; 2] = [CELL / 160.0, 3e-4];
+
+fn of_field([units, part]: [f64; 2], domain: &Domain) -> f64 {
+    units.max(part * domain.diagonal)
+}
 
 /// How to build a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,7 +134,7 @@ pub fn build(
     watch.step(40, 100)?;
     let off = input.error_up() * f64::from(domain.per_unit) * (1.0 + 1e-6);
     let stored = Stored::new(off, codes.step);
-    let slack = SLACK * domain.diagonal;
+    let (slack, floor) = (of_field(SLACK, &domain), of_field(FLOOR, &domain));
     let cells = 0..domain.cell_count();
     let asked: Vec<[u32; 2]> = (cells.into_par_iter())
         .map(|cell| {
@@ -142,7 +146,7 @@ pub fn build(
     let proofs = watch.part(0.4, 1.0).map(domain.cell_count(), |cell| {
         let corner = DVec3::from(domain.cell(cell).map(|at| at as f64)) * CELL;
         let wanted = stored.errors(books.errors(cell));
-        Prover::cell(&truth, codes.function(&domain, cell), corner, wanted, FLOOR * domain.diagonal)
+        Prover::cell(&truth, codes.function(&domain, cell), corner, wanted, floor)
     })?;
     let proved = |(cell, proof): (usize, &Proof)| match proof.is_widened {
         true => stored.up(proof.errors),

@@ -74,7 +74,8 @@ impl Facet {
     /// higher.
     #[inline]
     pub fn support(&self, from: DVec3, direction: DVec3) -> f64 {
-        let [a, b, c] = self.at.map(|at| direction.dot(at - from));
+        let [a, b, c] = self.at;
+        let [a, b, c] = [direction.dot(a - from), direction.dot(b - from), direction.dot(c - from)];
         a.max(b).max(c)
     }
 

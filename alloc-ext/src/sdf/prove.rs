@@ -49,7 +49,7 @@ fn needed(
     let facets = &truth.facets;
     let above = || {
         let found = most(linear, region, nears, wanted.high);
-        if found > wanted.high && region.ball().is_some() {
+        if found > wanted.high && region.is_near() {
             found.min(most_of_facet(linear, region, facets))
         } else {
             found
@@ -58,7 +58,7 @@ fn needed(
     // Of the distance inside, which is negative.
     let below = || {
         let found = most(&negative, region, nears, wanted.low);
-        if found > wanted.low && region.ball().is_some() {
+        if found > wanted.low && region.is_near() {
             found.min(most_of_facet(&negative, region, facets))
         } else {
             found
@@ -125,7 +125,7 @@ impl<'a> Prover<'a> {
             proof: Proof { errors: wanted, ..Proof::default() },
         };
         let half = DVec3::splat(0.5 * CELL);
-        let mut region = truth.facets.gather(corner + half, half, &mut prover.nears);
+        let mut region = truth.facets.gather([corner + half, half], true, &mut prover.nears);
         prover.visit(&mut region, 0, None);
         let Errors { low, high } = prover.proof.errors;
         prover.proof.is_widened = low > wanted.low || high > wanted.high;

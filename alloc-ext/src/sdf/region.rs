@@ -30,8 +30,18 @@ pub(super) const MARGIN: f64 = 1.0 / (1 << 20) as f64;
 /// Triangles that are this much farther than the nearest one count as nearest too, units.
 pub(super) const TIE: f64 = 1.0 / (1 << 10) as f64;
 
+/// Radii of a box by which its ball is larger than the distance. At least 2, so that balls of parts
+/// lie in that of the whole.
+const BALL: f64 = 2.3;
+
+/// A surface that is nearer than so many radii may meet the box. At least 1, for the same.
+const MET: f64 = 1.01;
+
 /// Triangles of a group.
 const GROUP: usize = 8;
+
+/// Most groups that are opened to see whether the surface is flat.
+const MOST_OPENED: usize = 16;
 
 /// Mark of a group among triangles.
 const IS_GROUP: u32 = 1 << 31;
@@ -77,6 +87,10 @@ pub(super) struct Region {
     pub distance: f64,
     /// No triangle is nearer to the centre.
     pub least: f64,
+    /// Whether triangles of the ball are kept.
+    has_ball: bool,
+    /// Whether the groups in the ball are open.
+    pub is_open: bool,
     /// Distances of that point from the eight corners, rounded up.
     pub ends: [f64; 8],
 }
@@ -84,10 +98,18 @@ pub(super) struct Region {
 /// The corners of a box about its centre.
 #[inline]
 pub(super) fn corners(half: DVec3) -> [DVec3; 8] {
-    std::array::from_fn(|corner| {
-        let sign = |bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
-        half * DVec3::new(sign(0), sign(1), sign(2))
-    })
+    let DVec3 { x, y, z } = half;
+    let corner = DVec3::new;
+    [
+        corner(-x, -y, -z),
+        corner(x, -y, -z),
+        corner(-x, y, -z),
+        corner(x, y, -z),
+        corner(-x, -y, z),
+        corner(x, -y, z),
+        corner(-x, y, z),
+        corner(x, y, z),
+    ]
 }
 
 /// The eight parts of a box, by their centres.
@@ -96,17 +118,39 @@ pub(super) fn parts(centre: DVec3, half: DVec3) -> [DVec3; 8] {
 }
 
 impl Region {
-    pub fn new(centre: DVec3, half: DVec3, facet: u32, point: DVec3) -> Self {
+    /// With the triangle that is nearest to its centre, and its closest point.
+    fn new([centre, half]: [DVec3; 2], (facet, point): (u32, DVec3), has_ball: bool) -> Self {
         let distance = (centre - point).length() + MARGIN;
-        let ends = corners(half).map(|corner| (centre + corner - point).length() + MARGIN);
         let radius = half.length();
-        Self { centre, half, radius, facet, point, distance, least: f64::INFINITY, ends }
+        let mut ends = [0.0; 8];
+        for (end, corner) in ends.iter_mut().zip(corners(half)) {
+            *end = (centre + corner - point).length() + MARGIN;
+        }
+        Self {
+            has_ball,
+            centre,
+            half,
+            radius,
+            facet,
+            point,
+            distance,
+            least: f64::INFINITY,
+            is_open: false,
+            ends,
+        }
     }
 
-    /// Radius of the ball about the centre whose triangles are kept, if the surface is near: three
-    /// radii and the distance. Balls of the box's parts lie in it.
+    /// Radius of the ball about the centre whose triangles are kept, if the surface meets the box.
+    /// Balls of the box's parts lie in it.
     pub fn ball(&self) -> Option<f64> {
-        (self.distance <= 2.0 * self.radius).then_some(self.distance + 3.0 * self.radius)
+        let is_met = self.has_ball && self.distance <= MET * self.radius;
+        is_met.then_some(self.distance + BALL * self.radius)
+    }
+
+    /// Whether the surface is so near that the nearest triangle is a better bound than its nearest
+    /// point.
+    pub fn is_near(&self) -> bool {
+        self.distance <= 2.0 * self.radius
     }
 
     /// Whether something with this normal and height over the box's centre may be nearest.
@@ -184,13 +228,13 @@ impl Facets {
         let point = region.centre.clamp(bounds.low, bounds.high);
         let away = region.centre - point;
         let length = away.length();
-        let open = region.ball().unwrap_or(0.0).max(region.distance) + TIE;
-        if length <= open + MARGIN {
+        if length <= region.distance + TIE + MARGIN {
             self.open(region, facet, nears);
             return;
         }
         let (normal, distance) = (away / length, length - MARGIN);
-        if region.reaches(normal, distance) {
+        let is_in_ball = region.ball().is_some_and(|radius| distance <= radius + TIE);
+        if is_in_ball || region.reaches(normal, distance) {
             nears.push(Near { facet, point, normal, distance });
         }
     }
@@ -203,10 +247,17 @@ impl Facets {
     }
 
     /// The triangles of a box, appended to others.
-    pub fn gather(&self, centre: DVec3, half: DVec3, nears: &mut Vec<Near>) -> Region {
+    pub fn gather(
+        &self,
+        [centre, half]: [DVec3; 2],
+        has_ball: bool,
+        nears: &mut Vec<Near>,
+    ) -> Region {
         let to = |item: usize| (centre - self.closest(item as u32, centre)).length_squared();
         let facet = self.tree.nearest(centre, to).map_or(0, |(item, _)| item as u32);
-        let mut region = Region::new(centre, half, facet, self.closest(facet, centre));
+        let start = nears.len();
+        let nearest = (facet, self.closest(facet, centre));
+        let mut region = Region::new([centre, half], nearest, has_ball);
         let seen = region;
         let ball = region.ball().unwrap_or(0.0);
         let keep = |bounds: &Bounds| {
@@ -220,7 +271,40 @@ impl Facets {
             self.keep_group(&mut region, group as u32 | IS_GROUP, nears);
             true
         });
+        self.open_ball(&mut region, start, nears);
         region
+    }
+
+    /// The triangle nearest to a point of a region, and its closest point, out of those of the
+    /// region.
+    pub fn nearest(&self, whole: &Region, nears: &[Near], p: DVec3) -> (u32, DVec3) {
+        let moved = p - whole.centre;
+        let mut nearest = (whole.facet, whole.point);
+        let mut square = (p - whole.point).length_squared();
+        let mut least = square.sqrt();
+        let mut look = |facet: u32| {
+            let point = self.closest(facet, p);
+            let found = (p - point).length_squared();
+            if found < square {
+                (nearest, square) = ((facet, point), found);
+            }
+            square
+        };
+        for near in nears {
+            if near.distance + near.normal.dot(moved) >= least {
+                continue;
+            }
+            match near.facet() {
+                Some(facet) => least = look(facet).sqrt(),
+                None => {
+                    let bounds = &self.groups[(near.facet ^ IS_GROUP) as usize];
+                    if (p - p.clamp(bounds.low, bounds.high)).length() < least {
+                        self.members(near.facet).for_each(|facet| least = look(facet).sqrt());
+                    }
+                }
+            }
+        }
+        nearest
     }
 
     /// The triangles of a part of a region, out of those of the region, appended.
@@ -232,55 +316,28 @@ impl Facets {
         nears: &mut Vec<Near>,
     ) -> Region {
         let moved = centre - whole.centre;
-        // Farther triangles neither reach the box nor lie in its ball.
-        let room = 3.0 * half.length() + 2.0 * TIE;
-        let mut best = ((whole.facet, whole.point), (centre - whole.point).length_squared());
-        let mut most = best.1.sqrt() + room;
+        let nearest = self.nearest(whole, &nears[range.clone()], centre);
+        // Where the surface misses the whole it misses the part.
+        let has_ball = whole.ball().is_some();
+        let mut region = Region::new([centre, half], nearest, has_ball);
         let start = nears.len();
+        // A triangle's height over the whole bounds its distance in the part too.
+        let ball = region.ball().unwrap_or(f64::NEG_INFINITY) + TIE;
         for number in range {
             let near = nears[number];
-            if near.distance + near.normal.dot(moved) > most {
+            let height = near.distance + near.normal.dot(moved);
+            if height > ball && !region.reaches(near.normal, height) {
                 continue;
             }
-            let (point, square, members) = match near.facet() {
+            match near.facet() {
                 Some(facet) => {
                     let point = self.closest(facet, centre);
-                    (point, (centre - point).length_squared(), facet..facet + 1)
+                    nears.extend(self.kept(&mut region, facet, point));
                 }
-                None => {
-                    let bounds = &self.groups[(near.facet ^ IS_GROUP) as usize];
-                    let point = centre.clamp(bounds.low, bounds.high);
-                    (point, (centre - point).length_squared(), self.members(near.facet))
-                }
-            };
-            if square <= most * most {
-                nears.push(Near { point, ..near });
-            }
-            if square >= best.1 {
-                continue;
-            }
-            for facet in members {
-                let point =
-                    if near.facet().is_some() { point } else { self.closest(facet, centre) };
-                let square = (centre - point).length_squared();
-                if square < best.1 {
-                    best = ((facet, point), square);
-                    most = square.sqrt() + room;
-                }
+                None => self.keep_group(&mut region, near.facet, nears),
             }
         }
-        let (facet, point) = best.0;
-        let mut region = Region::new(centre, half, facet, point);
-        let end = nears.len();
-        for number in start..end {
-            let Near { facet, point, .. } = nears[number];
-            if facet & IS_GROUP == 0 {
-                nears.extend(self.kept(&mut region, facet, point));
-            } else {
-                self.keep_group(&mut region, facet, nears);
-            }
-        }
-        nears.drain(start..end);
+        self.open_ball(&mut region, start, nears);
         region
     }
 
@@ -293,29 +350,44 @@ impl Facets {
         start: usize,
         nears: &mut Vec<Near>,
     ) -> bool {
-        let least = |near: &Near| near.least(linear.gradient, region.half);
+        let half = region.half;
+        let least = |near: &Near| near.least(linear.gradient, half);
         let facets = nears[start..].iter().filter(|near| near.facet().is_some());
         let bound = facets.map(least).fold(f64::INFINITY, f64::min);
-        let opened: Vec<u32> = nears[start..]
-            .iter()
-            .filter(|near| near.facet().is_none() && least(near) < bound)
-            .map(|near| near.facet)
-            .collect();
-        if opened.is_empty() {
-            return false;
+        let is_opened = |near: &Near| near.facet().is_none() && least(near) < bound;
+        let opens = nears[start..].iter().any(is_opened);
+        self.open_all(region, start, nears, is_opened);
+        opens
+    }
+
+    /// Opens the groups in the ball, if they are few: of the others the surface is not flat.
+    fn open_ball(&self, region: &mut Region, start: usize, nears: &mut Vec<Near>) {
+        let Some(ball) = region.ball() else { return };
+        let is_in = |near: &Near| near.distance <= ball + TIE;
+        let is_group = |near: &&Near| near.facet().is_none() && is_in(near);
+        region.is_open = nears[start..].iter().filter(is_group).count() <= MOST_OPENED;
+        if region.is_open {
+            self.open_all(region, start, nears, is_in);
         }
-        let mut end = start;
-        for number in start..nears.len() {
+    }
+
+    /// Opens groups.
+    fn open_all(
+        &self,
+        region: &mut Region,
+        start: usize,
+        nears: &mut Vec<Near>,
+        is_opened: impl Fn(&Near) -> bool,
+    ) {
+        let mut number = start;
+        while number < nears.len() {
             let near = nears[number];
-            if near.facet().is_some() || !opened.contains(&near.facet) {
-                nears[end] = near;
-                end += 1;
+            if near.facet().is_none() && is_opened(&near) {
+                nears.swap_remove(number);
+                self.open(region, near.facet, nears);
+            } else {
+                number += 1;
             }
         }
-        nears.truncate(end);
-        for group in opened {
-            self.open(region, group, nears);
-        }
-        true
     }
 }

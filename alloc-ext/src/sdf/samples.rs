@@ -2,7 +2,7 @@
 //! nothing relies on them.
 
 use super::domain::{CELL, Domain};
-use super::region::{Near, TIE, parts};
+use super::region::{Near, TIE};
 use super::truth::{Place, Truth};
 use crate::error::BuildError;
 use crate::progress::Watch;
@@ -60,47 +60,65 @@ impl Samples {
 
     /// The sample at a corner of a cell, by its bits x, y, z.
     pub fn corner(&self, cell: usize, corner: usize) -> Sample {
-        let (steps, side) = (self.steps, self.steps + 1);
+        let (steps, side) = (self.steps, side_of(self.steps));
         let at = |bit: usize| steps * (corner >> bit & 1);
         self.cells[cell][at(0) + side * (at(1) + side * at(2))]
     }
 }
 
 fn of_cell(truth: &Truth<'_>, corner: DVec3, steps: usize) -> Vec<Sample> {
-    let side = steps + 1;
-    let mut samples = vec![Sample { distance: 0.0, place: Place::Outside }; side * side * side];
+    let none = Sample { distance: 0.0, place: Place::Outside };
+    let mut samples = vec![none; side_of(steps).pow(3)];
     let mut nears: Vec<Near> = Vec::new();
     let half = DVec3::splat(0.5 * CELL);
-    let whole = truth.facets.gather(corner + half, half, &mut nears);
+    let whole = truth.facets.gather([corner + half, half], false, &mut nears);
     let count = nears.len();
-    for (part, centre) in parts(corner + half, half).into_iter().enumerate() {
-        let boxed = [centre, 0.5 * half];
+    // Blocks of two steps along each axis: their lists are short.
+    let blocks = steps / 2;
+    let step = CELL / steps as f64;
+    for block in 0..blocks * blocks * blocks {
+        let block = [block % blocks, block / blocks % blocks, block / (blocks * blocks)];
+        let middle = DVec3::from(block.map(|at| (2 * at + 1) as f64)) * step;
+        let boxed = [corner + middle, DVec3::splat(step)];
         let region = truth.facets.narrow(&whole, 0..count, boxed, &mut nears);
         let end = nears.len();
-        let place_of = |region_nears: &[Near], p: DVec3, distance: f64| {
-            let ties = region_nears.iter().filter(|near| near.distance <= distance + TIE);
+        let side = |nears: &[Near], p: DVec3, distance: f64| {
+            let ties = nears.iter().filter(|near| near.distance <= distance + TIE);
             truth.side(p, ties.copied())
         };
         let place = (region.least > region.radius)
-            .then(|| place_of(&nears[count..end], centre, region.distance));
-        let range = |bit: usize| {
-            if part >> bit & 1 == 0 { 0..steps / 2 } else { steps / 2..steps + 1 }
-        };
-        for k in range(2) {
-            for j in range(1) {
-                for i in range(0) {
-                    let at = [i, j, k].map(|at| at as f64 * CELL / steps as f64);
-                    let p = corner + DVec3::from(at);
-                    let point =
-                        truth.facets.narrow(&region, count..end, [p, DVec3::ZERO], &mut nears);
-                    let place = place.unwrap_or_else(|| place_of(&nears[end..], p, point.distance));
-                    nears.truncate(end);
-                    samples[i + side * (j + side * k)] =
-                        Sample { distance: point.distance as f32, place };
+            .then(|| side(&nears[count..], region.centre, region.distance));
+        let [x, y, z] = block.map(|at| {
+            let last = usize::from(at + 1 == blocks);
+            2 * at..2 * at + 2 + last
+        });
+        for k in z {
+            for j in y.clone() {
+                for i in x.clone() {
+                    let p = corner + DVec3::from([i, j, k].map(|at| at as f64)) * step;
+                    let sample = match place {
+                        Some(place) => {
+                            let (_, point) = truth.facets.nearest(&region, &nears[count..end], p);
+                            Sample { distance: (p - point).length() as f32, place }
+                        }
+                        None => {
+                            let boxed = [p, DVec3::ZERO];
+                            let at = truth.facets.narrow(&region, count..end, boxed, &mut nears);
+                            let place = side(&nears[end..], p, at.distance);
+                            nears.truncate(end);
+                            Sample { distance: at.distance as f32, place }
+                        }
+                    };
+                    samples[i + side_of(steps) * (j + side_of(steps) * k)] = sample;
                 }
             }
         }
         nears.truncate(count);
     }
     samples
+}
+
+/// Samples along a side of a cell.
+fn side_of(steps: usize) -> usize {
+    steps + 1
 }

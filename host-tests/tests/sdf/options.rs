@@ -1,5 +1,6 @@
 //! Options of a field, and meshes that it is refused for.
 
+use super::decoded::Field;
 use meshsweep::builder::{For, SdfKind, Stage, Topic};
 use meshsweep::mesh::RawMesh;
 use meshsweep::{BuildError, Builder, Built};
@@ -37,7 +38,7 @@ fn an_open_mesh_has_no_field_with_sides() {
 
 #[test]
 fn a_field_without_a_normal_unit_is_refused() {
-    let tiny = scaled(&block([0.0; 3], [1.0; 3]), 1e-38);
+    let tiny = scaled(&block([0.0; 3], [1.0; 3]), 1e-36);
     let refused = build(&tiny, Builder::new()).expect_err("refused");
     assert!(matches!(refused, BuildError::FieldUnit { .. }), "{refused}");
     let huge = build(&block([0.0; 3], [1e38; 3]), Builder::new().sdf_margin(3.3e38));
@@ -47,7 +48,7 @@ fn a_field_without_a_normal_unit_is_refused() {
 #[test]
 fn a_margin_is_covered() {
     let built = build(&block([0.0; 3], [1.0; 3]), Builder::new().sdf_margin(7.0)).expect("builds");
-    let [low, high] = built.blob().sdf().expect("a field").bounds();
+    let [low, high] = Field::of(built.bytes()).bounds();
     assert!(low.iter().all(|&x| x <= -7.0) && high.iter().all(|&x| x >= 8.0), "{low:?} {high:?}");
 }
 

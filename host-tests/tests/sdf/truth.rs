@@ -121,7 +121,10 @@ fn no_distance_of_thin_plates_lies_outside() {
 
 #[test]
 fn no_distance_of_touching_solids_lies_outside() {
-    check("glued blocks", &glued_blocks(), &KINDS, 2048);
+    // Walls that are the same triangles are merged, and tell no sides.
+    check("glued blocks", &glued_blocks(), &[SdfKind::Surface], 2048);
+    let on_face = joined(&block([0.0; 3], [1.0; 3]), &block([1.0, 0.2, 0.3], [2.0, 0.7, 0.8]));
+    check("blocks at a face", &on_face, &KINDS, 2048);
     let on_edge = joined(&block([0.0; 3], [1.0; 3]), &block([1.0, 1.0, 0.0], [2.0, 2.0, 1.0]));
     check("blocks at an edge", &on_edge, &KINDS, 2048);
 }
