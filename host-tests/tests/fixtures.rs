@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf};
 
 use meshsweep::curve::{CurveOptions, build, read_csv};
 use meshsweep::progress::Watch;
-use meshsweep_core::{Blob, Budget, Bvh, Curve, DeformableHull, Hull, TightHulls, Triboxes};
+use meshsweep_core::{
+    Blob, Budget, Bvh, Curve, DeformableHull, Hull, Sdf, SdfKind, TightHulls, Triboxes,
+};
 use meshsweep_counted::answers::{of_fixtures, of_kept};
 use meshsweep_host_tests::golden::{
-    bending_torus, bracket_hulls, bracket_model, fence_curves, groove_tree, sources, torus_sieve,
-    torus_triboxes,
+    bending_torus, bracket_hulls, bracket_model, fence_curves, groove_field, groove_tree, sources,
+    torus_sieve, torus_triboxes,
 };
 use meshsweep_host_tests::picture;
 
@@ -109,6 +111,17 @@ fn committed_fence_is_what_the_builder_makes_of_its_file() {
 }
 
 #[test]
+fn committed_field_is_what_the_builder_makes() {
+    let bytes = read("field.msw");
+    assert!(
+        bytes == groove_field(),
+        "fixtures/field.msw is out of date: run `cargo xtask fixtures`"
+    );
+    let field = Sdf::open(&bytes).expect("opens");
+    assert!(field.kind() == SdfKind::Signed && bytes.len() <= 160 + 16 + (8 << 10));
+}
+
+#[test]
 fn committed_hierarchy_of_an_open_mesh_is_what_the_builder_makes() {
     let bytes = read("sieve.msw");
     assert!(
@@ -132,7 +145,15 @@ fn committed_bend_is_what_the_builder_makes() {
 
 #[test]
 fn the_core_packs_the_same_blobs() {
-    for name in ["bend.msw", "bracket.msw", "fence.msw", "groove.msw", "hulls.msw", "torus.msw"] {
+    for name in [
+        "bend.msw",
+        "bracket.msw",
+        "fence.msw",
+        "field.msw",
+        "groove.msw",
+        "hulls.msw",
+        "torus.msw",
+    ] {
         let packed = read(&format!("../core/fixtures/{name}"));
         assert!(
             packed == read(name),

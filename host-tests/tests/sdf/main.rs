@@ -4,5 +4,6 @@ mod bytes;
 mod decoded;
 mod kernel;
 mod options;
+mod proof;
 mod size;
 mod truth;
