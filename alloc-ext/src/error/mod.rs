@@ -148,8 +148,8 @@ pub enum BuildError {
         /// The longest side of the field, in the mesh's unit.
         side: f64,
     },
-    /// An error of a field is too large for its bytes: it is undecided far from the surface on which side
-    /// points are.
+    /// An error of a field is too large for its bytes: far from the surface there are points whose
+    /// side is undecided.
     FieldTooWide {
         /// The kind of field.
         kind: &'static str,

@@ -23,6 +23,7 @@ mod reports;
 mod robot;
 mod robot_gantry;
 mod rounding;
+mod sdf_build;
 mod support;
 mod tight;
 mod trade;

@@ -104,52 +104,52 @@ fn moved(mesh: &Triangles, by: [f32; 3]) -> Triangles {
 
 #[test]
 fn no_distance_of_a_bracket_lies_outside() {
-    check("bracket", &bracket(), &KINDS, 4096);
+    check("bracket", &bracket(), &KINDS, 1024);
 }
 
 #[test]
 fn no_distance_of_round_meshes_lies_outside() {
-    check("sphere", &icosphere(3), &KINDS, 4096);
-    check("rough sphere", &rough_sphere(3, 0.2, 7), &KINDS, 4096);
+    check("sphere", &icosphere(3), &KINDS, 1024);
+    check("rough sphere", &rough_sphere(3, 0.2, 7), &KINDS, 1024);
 }
 
 #[test]
 fn no_distance_of_thin_plates_lies_outside() {
-    check("plate", &plate([0.3, 0.1], 0.004), &KINDS, 4096);
-    check("flat plate", &plate([0.0, 0.0], 1e-6), &KINDS, 2048);
+    check("plate", &plate([0.3, 0.1], 0.004), &KINDS, 1024);
+    check("flat plate", &plate([0.0, 0.0], 1e-6), &KINDS, 800);
 }
 
 #[test]
 fn no_distance_of_touching_solids_lies_outside() {
     // Walls that are the same triangles are merged, and tell no sides.
-    check("glued blocks", &glued_blocks(), &[SdfKind::Surface], 2048);
+    check("glued blocks", &glued_blocks(), &[SdfKind::Surface], 800);
     let on_face = joined(&block([0.0; 3], [1.0; 3]), &block([1.0, 0.2, 0.3], [2.0, 0.7, 0.8]));
-    check("blocks at a face", &on_face, &KINDS, 2048);
+    check("blocks at a face", &on_face, &KINDS, 800);
     let on_edge = joined(&block([0.0; 3], [1.0; 3]), &block([1.0, 1.0, 0.0], [2.0, 2.0, 1.0]));
-    check("blocks at an edge", &on_edge, &KINDS, 2048);
+    check("blocks at an edge", &on_edge, &KINDS, 800);
 }
 
 #[test]
 fn no_distance_of_an_open_sheet_lies_outside() {
     let (positions, triangles) = block([0.0; 3], [3.0, 2.0, 1.0]);
     let sheet = (positions, triangles[..6].to_vec());
-    check("sheet", &sheet, &[SdfKind::Surface], 2048);
+    check("sheet", &sheet, &[SdfKind::Surface], 800);
 }
 
 #[test]
 fn no_distance_of_a_mesh_that_crosses_itself_lies_outside() {
     let crossed = joined(&icosphere(2), &moved(&icosphere(2), [0.9, 0.3, 0.2]));
-    check("crossed spheres", &crossed, &KINDS, 2048);
+    check("crossed spheres", &crossed, &KINDS, 800);
     let blocks = joined(&block([0.0; 3], [2.0; 3]), &block([1.0; 3], [3.0, 2.5, 2.5]));
-    check("crossed blocks", &blocks, &KINDS, 2048);
+    check("crossed blocks", &blocks, &KINDS, 800);
 }
 
 #[test]
 fn no_distance_of_a_triangle_lies_outside() {
     let triangle = (vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.2], [0.3, 0.8, 0.1]], vec![[0, 1, 2]]);
-    check("triangle", &triangle, &[SdfKind::Surface], 2048);
+    check("triangle", &triangle, &[SdfKind::Surface], 800);
     let needle = (vec![[0.0, 0.0, 0.0], [1.0, 1e-7, 0.2], [0.5, 0.0, 0.1]], vec![[0, 1, 2]]);
-    check("needle", &needle, &[SdfKind::Surface], 2048);
+    check("needle", &needle, &[SdfKind::Surface], 800);
 }
 
 #[test]

@@ -1,0 +1,62 @@
+//! `build --for sdf`: kinds, bytes, and what the report says.
+
+use crate::support::{arg, ok, refused, run, scratch};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A block of 3 by 2 by 1 as OBJ; open without its last face.
+fn block(directory: &Path, is_open: bool) -> PathBuf {
+    let mut text = String::new();
+    for i in 0..8 {
+        text += &format!("v {} {} {}\n", 3 * (i & 1), 2 * (i >> 1 & 1), i >> 2);
+    }
+    let faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];
+    for face in &faces[..if is_open { 5 } else { 6 }] {
+        text += &format!("f {face}\n");
+    }
+    let file = directory.join(if is_open { "open.obj" } else { "block.obj" });
+    fs::write(&file, text).unwrap();
+    file
+}
+
+fn build(mesh: &Path, options: &[&str]) -> String {
+    let blob = mesh.with_extension("msw");
+    ok([&["build", arg(mesh), "-o", arg(&blob), "--for", "sdf", "--sdf", "1K"], options].concat())
+}
+
+#[test]
+fn a_field_is_reported_with_its_kind_and_its_widths_and_there_is_no_tree() {
+    let directory = scratch("sdf_report");
+    let mesh = block(&directory, false);
+    let text = build(&mesh, &["--sdf-kind", "solid", "--sdf-margin", "0.5"]);
+    for wanted in [
+        "distances to the solid, 0 inside",
+        "cells of 2048 units",
+        "up to a tenth of the diagonal from the surface",
+        "proved by",
+        "distance field",
+    ] {
+        assert!(text.contains(wanted), "{wanted}: {text}");
+    }
+    assert!(!text.contains("box tree"), "{text}");
+    let json: Value = serde_json::from_str(&build(&mesh, &["--json"])).unwrap();
+    let field = &json["contents"]["sdf"];
+    assert_eq!(field["kind"], "signed");
+    assert!(field["widest_cell"].as_f64().unwrap() > 0.0);
+    assert_eq!(json["options"], "--for sdf --sdf 1024");
+}
+
+#[test]
+fn an_open_mesh_gets_distances_without_a_sign_and_no_others() {
+    let directory = scratch("sdf_open");
+    let mesh = block(&directory, true);
+    let text = build(&mesh, &[]);
+    assert!(text.contains("the mesh is not closed"), "{text}");
+    assert!(text.contains("distances to the surface, without a side"), "{text}");
+    let blob = directory.join("open.msw");
+    let kind = ["--for", "sdf", "--sdf-kind", "signed"];
+    let given = ["build", arg(&mesh), "-o", arg(&blob)];
+    let message = refused(&run([given.as_slice(), kind.as_slice()].concat()), 1, "open.obj");
+    assert!(message.contains("--sdf-kind surface"), "{message}");
+}
