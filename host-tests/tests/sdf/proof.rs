@@ -63,7 +63,13 @@ fn errors_that_are_smaller_and_codes_that_are_others_are_not_proved() {
     for kind in SdfKind::ALL {
         let bytes = built(&mesh, kind, 1 << 10);
         let changed = |edit: &dyn Fn(&mut [u8])| {
-            edited(bytes.clone(), SectionKind::Sdf, edit, |bytes| outcome(bytes, &mesh))
+            let mut found = None;
+            let told: Result<(), ()> = edited(bytes.clone(), SectionKind::Sdf, edit, |bytes| {
+                found = Some(outcome(bytes, &mesh));
+                Ok(())
+            });
+            assert_eq!(told, Ok(()));
+            found.expect("asked")
         };
         assert_eq!(changed(&|_| ()), Outcome::Proved);
         // A sixteenth less of each error.
