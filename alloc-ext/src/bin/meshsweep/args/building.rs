@@ -112,7 +112,7 @@ pub struct BuildArgs {
         hide_possible_values = true
     )]
     pub tight_for: Vec<HullServes>,
-    /// Most bytes of the distance field, with --for sdf: as 16K [default: 16K]
+    /// Bytes of the distance field, with --for sdf [default: 16K]
     #[arg(long, value_name = "BYTES", value_parser = sdf_bytes)]
     pub sdf: Option<u32>,
     /// What the field's distances mean: signed, solid or surface
@@ -125,7 +125,7 @@ pub struct BuildArgs {
         value_parser = PossibleValuesParser::new(SdfKind::ALL.map(SdfKind::name)).map(sdf_kind)
     )]
     pub sdf_kind: Option<SdfKind>,
-    /// Distance about the mesh's box that the field covers, in the mesh's unit
+    /// Margin of the field about the mesh, in its unit
     ///
     /// By default a tenth of the box's diagonal. Farther out answers are wider.
     #[arg(long, value_name = "DISTANCE", value_parser = length)]
