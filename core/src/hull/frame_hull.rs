@@ -8,7 +8,7 @@
 
 use super::closest_point;
 use super::format::{DeformableHull, Hull, Key, VertIdx};
-use super::geometry::Geometry;
+use super::geometry::{self, Geometry};
 use crate::geom::{Aabb, RealVector};
 use crate::num::tolerance::{
     DEFORM_DIAMETER, KEY_RADIUS, KEY_VERTEX, LENGTH_UP, SUMMED, U32, VERTEX_UNDERFLOW,
@@ -174,6 +174,11 @@ impl<'a> FrameHull<'a> {
         budget.check_with(scratch)?;
         let Budget { relative, absolute, steps } = budget;
         closest_point::closest_point(self, point, [relative, absolute], steps, scratch)
+    }
+
+    /// Coordinates of a vertex of any level at this frame, input units, rounded to f32.
+    pub fn vertex(&self, vertex: VertIdx) -> Option<[f32; 3]> {
+        geometry::vertex(self, vertex)
     }
 
     #[inline(always)]

@@ -14,7 +14,7 @@
 
 use super::closest_point;
 use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};
-use super::geometry::Geometry;
+use super::geometry::{self, Geometry};
 use crate::geom::{Aabb, RealVector};
 use crate::num::tolerance::{
     DEFORM_DIAMETER, DEFORM_DOMAIN, DISPLACEMENT, LENGTH_UP, U32, VERTEX_UNDERFLOW,
@@ -289,6 +289,12 @@ impl MovedHull<'_, '_> {
         self.vertex_box = Aabb { min: low, max: high };
         (self.has_pose, self.used) = (true, 0.0);
         Some(())
+    }
+
+    /// Coordinates of a vertex of any level as the last update left it, input units, rounded to
+    /// f32.
+    pub fn vertex(&self, vertex: VertIdx) -> Option<[f32; 3]> {
+        geometry::vertex(self, vertex)
     }
 
     fn record(&self, vertex: VertIdx) -> Option<&MovedVertex> {

@@ -15,3 +15,4 @@ mod refined;
 mod scenes;
 mod segments;
 mod starts;
+mod swept_mesh;
