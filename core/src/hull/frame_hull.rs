@@ -237,17 +237,21 @@ impl<'a> Geometry<'a> for FrameHull<'a> {
         is_surface: bool,
     ) -> Option<([Vec3; 3], f32)> {
         let corners = [self.position(a)?, self.position(b)?, self.position(c)?];
-        Some((corners, if is_surface { 0.0 } else { self.radius(number)? }))
+        // A triangle that closes a hole is none of the surface, and keeps its infinite radius.
+        let has_no_radius = is_surface && self.tables().encloses();
+        Some((corners, if has_no_radius { 0.0 } else { self.radius(number)? }))
     }
 
     fn place(&self, vertex: VertIdx) -> Option<Vec3> {
         self.position(vertex)
     }
 
-    /// The swept triangle of a group is not known in other frames: it holds the whole model.
+    /// The swept triangle of a group is not known in other frames: it holds the whole model, if it
+    /// stands for a part of it.
     fn group(&self, index: u32) -> Option<([Vec3; 3], f32)> {
-        let ([a, b, c], _) = self.tables().base_group(index)?;
-        Some(([self.position(a)?, self.position(b)?, self.position(c)?], DEFORM_DIAMETER))
+        let ([a, b, c], radius) = self.tables().base_group(index)?;
+        let corners = [self.position(a)?, self.position(b)?, self.position(c)?];
+        Some((corners, greater(radius, DEFORM_DIAMETER)))
     }
 
     fn vertex_box(&self) -> Aabb {

@@ -4,6 +4,7 @@ mod bytes;
 mod check;
 mod closest;
 mod deform;
+mod deform_open;
 mod deform_overlap;
 mod deform_sweep;
 mod edge_cases;

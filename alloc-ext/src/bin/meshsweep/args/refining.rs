@@ -66,7 +66,13 @@ pub struct RefineArgs {
     )]
     pub sweep: Option<[f32; 3]>,
     /// With --sweep: key frame of a blob built --for deform, from 0
-    #[arg(long, value_name = "FRAME", value_parser = frame, requires = "sweep")]
+    #[arg(
+        long,
+        value_name = "FRAME",
+        value_parser = frame,
+        requires = "sweep",
+        conflicts_with_all = ["error", "near", "corners", "segment", "eye"]
+    )]
     pub frame: Option<f32>,
     /// Angle of the cone that the eye sees, in degrees
     #[arg(long, value_name = "DEGREES", value_parser = degrees, requires = "eye")]
