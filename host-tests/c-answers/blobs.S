@@ -16,6 +16,7 @@
     blob bracket
     blob torus
     blob fence
+    blob bend
 
 #ifdef __linux__
     .section .note.GNU-stack, "", %progbits

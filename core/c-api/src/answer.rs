@@ -129,6 +129,15 @@ pub fn side(side: Side) -> (i32, i32) {
     }
 }
 
+impl ClosestC {
+    /// No triangle is left.
+    pub(crate) fn none() -> Self {
+        let distance = IntervalC { lower: f32::INFINITY, upper: f32::INFINITY };
+        let ended = ended(Ended::Exact);
+        ClosestC { distance, triangle: NO_TRIANGLE, ended, ..ClosestC::default() }
+    }
+}
+
 impl From<ClosestPoint> for ClosestC {
     fn from(found: ClosestPoint) -> Self {
         ClosestC {
