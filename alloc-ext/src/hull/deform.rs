@@ -50,8 +50,8 @@ struct KeyTrack {
 pub struct KeyTracks(Vec<KeyTrack>);
 
 impl KeyTracks {
-    /// Places of all vertices; radii are 0 until [`cover`](Self::cover) raises them. The vertices of
-    /// the surface have the places of `places`, vertices of the mesh.
+    /// Places of all vertices; radii are 0 until [`cover`](Self::cover) raises them. A vertex of the
+    /// surface has the place of a vertex of the mesh, by `places`.
     ///
     /// # Errors
     /// [`BuildError::FrameTooFar`].

@@ -163,9 +163,9 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 #define MSW_MOVED_SWEEP_WORDS 144
 
 /* An opened box tree, an opened tight hull, an opened hull hierarchy, opened triboxes, opened
- * curves, an opened hull hierarchy that deforms. They point into the blob, which must stay where it is, unchanged, as long as they are
- * used. Copies are as good. A storage of zeros is not opened, and every question about it is
- * refused. */
+ * curves, an opened hull hierarchy that deforms. They point into the blob, which must stay where it
+ * is, unchanged, as long as they are used. Copies are as good. A storage of zeros is not opened,
+ * and every question about it is refused. */
 typedef struct { uintptr_t opaque[MSW_MODEL_WORDS]; } msw_model;
 typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
 typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
@@ -1010,17 +1010,17 @@ int32_t msw_refined_faces(const msw_hull *hull, msw_refined_entry *refined, size
  * parts a thousand hold all; with fewer a sweep begins anew more often. */
 uint32_t msw_hull_sweep_entries(const msw_hull *hull);
 
-/* Begins a sweep about `point`. `scratch` belongs to the sweep from now on. After an error the sweep
- * is not begun. Cost: some hundred instructions. */
+/* Begins a sweep about `point`. `scratch` belongs to the sweep from now on. After an error the
+ * sweep is not begun. Cost: some hundred instructions. */
 int32_t msw_sweep_begin(msw_sweep *sweep, const msw_hull *hull, const float point[3],
                         msw_scratch_entry *scratch, size_t scratch_count);
 
 /* Moves the point of a sweep. Cost: constant. */
 int32_t msw_sweep_move_to(msw_sweep *sweep, const float point[3]);
 
-/* The closest point, as msw_closest_point says. After MSW_ENDED_STEPS or MSW_ENDED_TOLERANCE another
- * call goes on where this one stopped. Cost: up to twelve triangles after a small motion, else that
- * of a search. */
+/* The closest point, as msw_closest_point says. After MSW_ENDED_STEPS or MSW_ENDED_TOLERANCE
+ * another call goes on where this one stopped. Cost: up to twelve triangles after a small motion,
+ * else that of a search. */
 int32_t msw_sweep_closest_point(msw_sweep *sweep, const msw_budget *budget, msw_closest *answer);
 
 /* The next triangle by rising distance, with its own interval. Once distance.lower exceeds d, every
@@ -1072,9 +1072,9 @@ int32_t msw_moved_begin(msw_moved *moved, const msw_deform *deform,
  * The bounds of coarse levels stay as they are until the vertices moved by more than `slack` since
  * these were computed; 0 computes them now. A rigid motion of the whole mesh makes bounds loose:
  * carry points into the part's frame instead.
- * Errors: MSW_ERROR_COUNT: too few vertices. MSW_ERROR_TOLERANCE: the slack. MSW_ERROR_OUT_OF_DOMAIN:
- * a vertex is NaN, or 64 times as far as the mesh is large. Then questions are refused by
- * MSW_ERROR_NO_POSE until the next update.
+ * Errors: MSW_ERROR_COUNT: too few vertices. MSW_ERROR_TOLERANCE: the slack.
+ * MSW_ERROR_OUT_OF_DOMAIN: a vertex is NaN, or 64 times as far as the mesh is large. Then questions
+ * are refused by MSW_ERROR_NO_POSE until the next update.
  * Cost: one pass over the vertices of the mesh, or over those of all levels. */
 int32_t msw_moved_update(msw_moved *moved, float slack, const float (*vertices)[3],
                          size_t vertex_count);
@@ -1089,8 +1089,8 @@ int32_t msw_moved_first_hit(msw_moved *moved, const float a[3], const float b[3]
                             msw_scratch_entry *scratch, size_t scratch_count,
                             msw_hit *answer);
 
-/* A sweep of the mesh at a frame, which goes to other frames. After msw_frame_sweep_to bounds lose as
- * much as a vertex moved on the way. MSW_ERROR_NO_FRAME changes nothing. The others are as those of
+/* A sweep of the mesh at a frame, which goes to other frames. After msw_frame_sweep_to bounds lose
+ * as much as a vertex moved on the way. MSW_ERROR_NO_FRAME changes nothing. The others are as those of
  * msw_sweep; msw_hull_sweep_entries of the hull at rest are enough. */
 int32_t msw_frame_sweep_begin(msw_frame_sweep *sweep, const msw_deform *deform, float frame,
                               const float point[3],

@@ -37,7 +37,7 @@ errors! {
     NotOpened = -3, c"the model was not opened, or its open function failed";
     /// An array is larger than memory.
     Count = -4,
-        c"a count of elements is larger than memory or a limit, or a solid has no corner, or a mesh \
+        c"a count of elements is larger than memory or a limit, a solid has no corner, or a mesh \
           too few vertices";
     /// A constant is unknown.
     Value = -5, c"a facing or a kind of focus or motion is none of the named constants";

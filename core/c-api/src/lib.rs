@@ -6,7 +6,8 @@
 //! | `error` | negative numbers and their texts |
 //! | `question`, `answer` | structures of the header |
 //! | `ask` | the questions' common part, and the macro of their rows |
-//! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `hull`, `sweep`, `deform`, `curve`, `pose` | the functions |
+//! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `curve`, `pose` | the functions |
+//! | `hull`, `sweep`, `deform` | those of hull hierarchies, of sweeps, of meshes that deform |
 //!
 //! This crate has no panic handler, so that the workspace builds and tests it like the others.
 //! `host-tests/firmware/c-library` makes the static libraries of it, with the boards' profiles.

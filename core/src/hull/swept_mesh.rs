@@ -37,12 +37,14 @@ impl<'t, const SPLITS: usize> RefinedHull<'t, SPLITS> {
     /// [`Sweep::hull`](crate::Sweep::hull). `distance`: the upper end of the answer, or the lower
     /// end of one that ended early.
     ///
-    /// If [`SweptMesh::error_left`] is 0, a face that stands for a part of the surface is a triangle
-    /// of the surface, or swept by its radius it is farther than `distance`. So every triangle of
-    /// the stored surface within `distance` is a face: with an upper end that of the closest point
-    /// too. In any case the faces are a closed mesh which [encloses](crate::Hull::encloses) the
-    /// surface at rest, or they are open where the surface is. Moved faces need not enclose it. On a
-    /// cut blob faces of the last level stay. The splits that were performed before are undone.
+    /// If [`SweptMesh::error_left`] is 0, each face is a triangle of the surface, or farther than
+    /// `distance` even when it is swept by its radius. So every triangle of the stored surface
+    /// within `distance` is a face. With an upper end the triangle of the closest point is one too.
+    ///
+    /// In any case the faces are a closed mesh which [encloses](crate::Hull::encloses) the surface
+    /// at rest. Of an open surface they are open where it is. Moved faces need not enclose the
+    /// surface. On a cut blob faces of the last level stay. The splits that were performed before
+    /// are undone.
     ///
     /// Cost: `SPLITS`, and a bound for each face of the base hull and of each performed split.
     /// Source: Guéziec 2000, 4.3 and Figure 6.

@@ -88,8 +88,8 @@ impl<'a, G: Geometry<'a>> Sweep<'_, G> {
         }
     }
 
-    /// How a search ends that lost triangles which may be the nearest, and begins no more. If all of
-    /// them were pruned, before a motion, the next call begins anew.
+    /// How a search ends that lost triangles which may be the nearest, and does not begin anew. If
+    /// all of them were pruned, before a motion, the next call begins anew.
     #[cold]
     fn cut_short(&self, budget: &Budget) -> Ended {
         let has_dropped = self.front.queue.dropped() < f32::INFINITY;
