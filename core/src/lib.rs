@@ -47,6 +47,7 @@
 //! | inside or outside of a fence of inclusion and exclusion zones, and how far from its line | [`Curve::signed_distance`] |
 //! | the faces of a nested hull | [`Hull::faces`] |
 //! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
+//! | the mesh that a sweep about a point ends with | [`RefinedHull::sweep_to`] |
 //! | hits from outside on that hull | [`Hull::outer_hits`] |
 //! | does a triangle, or a moved mesh, meet the surface; each refined only where they meet | [`Hull::meets_triangle`], [`Hull::overlap`], [`Hull::all_overlaps`] |
 //! | closest point, hits, and the next triangles on the split tables | [`Hull::closest_point`], [`Hull::first_hit`], [`Hull::sweep`] |
@@ -116,7 +117,7 @@ pub use geom::Pose;
 pub use hull::format::VertIdx;
 pub use hull::{
     DeformableHull, Focus, FrameHull, Hull, HullFace, HullLevel, MovedHull, MovedVertex, OuterHits,
-    OuterSearch, RefinedHull, Refinement, SplitChange, Sweep,
+    OuterSearch, RefinedHull, Refinement, SplitChange, Sweep, SweptMesh,
 };
 pub use query::{
     AllHits, AllOverlaps, AllWithin, Budget, ClosestPoint, Decided, Ended, FirstHit, Hit, Interval,

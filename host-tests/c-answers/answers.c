@@ -20,6 +20,8 @@ extern const unsigned char fence[];
 extern const uint32_t fence_bytes;
 extern const unsigned char field[];
 extern const uint32_t field_bytes;
+extern const unsigned char bend[];
+extern const uint32_t bend_bytes;
 
 /* Distances of two models take a board millions of instructions: fewer of them. */
 enum { ROUNDS = 24, PAIR_ROUNDS = 6, SPLITS = 60, FACES = 160 };
@@ -605,7 +607,158 @@ static void refined_hull(void)
         fold(&written, sizeof written);
         fold(faces, written.stored * sizeof faces[0]);
     }
+    for (int round = 0; round < 3; round++) {
+        float point[3];
+        random_point(point);
+        msw_refinement answer;
+        fold_word((uint32_t)msw_refine_swept(&hull, refined, MSW_REFINED_ENTRIES(SPLITS), point,
+                                             4.0f, &answer));
+        fold(&answer, sizeof answer);
+    }
     end("refine");
+}
+
+/* What sweeps hold, and places of vertices. */
+enum { KEPT = 512, RECORDS = 512, VERTICES = 256 };
+
+static msw_scratch_entry kept[KEPT];
+static msw_moved_vertex records[2][RECORDS];
+static float vertices[VERTICES][3];
+
+/* A point near a mesh of about one unit. */
+static void near_point(float point[3])
+{
+    random_point(point);
+    for (int axis = 0; axis < 3; axis++) {
+        point[axis] *= 1.0f / 32.0f;
+    }
+}
+
+static void random_vertices(uint32_t count)
+{
+    for (uint32_t vertex = 0; vertex < count && vertex < VERTICES; vertex++) {
+        random_point(vertices[vertex]);
+        for (int axis = 0; axis < 3; axis++) {
+            vertices[vertex][axis] *= 1.0f / 64.0f;
+        }
+    }
+}
+
+static void fold_hit(const msw_hit *answer)
+{
+    fold(answer, offsetof(msw_hit, work));
+}
+
+static void sweeps(void)
+{
+    static msw_hull hull;
+    static msw_sweep sweep;
+    float place[3];
+    msw_closest near;
+    begin();
+    fold_word((uint32_t)msw_open_hull(&hull, bracket, bracket_bytes));
+    fold_word(msw_hull_sweep_entries(&hull));
+    random_point(place);
+    fold_word((uint32_t)msw_sweep_begin(&sweep, &hull, place, kept, KEPT));
+    for (int round = 0; round < ROUNDS; round++) {
+        if (round % 8 == 7) {
+            random_point(place);
+        } else {
+            random_step(place);
+        }
+        fold_word((uint32_t)msw_sweep_move_to(&sweep, place));
+        fold_word((uint32_t)msw_sweep_closest_point(&sweep, budget_of(round), &near));
+        fold_closest(&near);
+        for (int rank = 0; rank < 2; rank++) {
+            fold_word((uint32_t)msw_sweep_next(&sweep, NULL, &near));
+            fold_closest(&near);
+        }
+    }
+    end("sweep");
+}
+
+static void key_frames(void)
+{
+    static msw_deform deform;
+    static msw_hull hull;
+    static msw_frame_sweep sweep;
+    float place[3], a[3], b[3];
+    msw_closest near;
+    msw_hit hit;
+    begin();
+    fold_word((uint32_t)msw_open_deform(&deform, bend, bend_bytes));
+    fold_word(msw_deform_scratch_entries(&deform));
+    fold_word(msw_deform_frames(&deform));
+    fold_word(msw_deform_vertices(&deform));
+    fold_word(msw_deform_records(&deform));
+    fold_word((uint32_t)msw_deform_hull(&hull, &deform));
+    fold_word(msw_hull_sweep_entries(&hull));
+    near_point(place);
+    fold_word((uint32_t)msw_frame_sweep_begin(&sweep, &deform, 0.0f, place, kept, KEPT));
+    const size_t count = msw_deform_scratch_entries(&deform);
+    for (int round = 0; round < ROUNDS; round++) {
+        const float frame = (float)(round % 9) * 0.125f;
+        near_point(a);
+        near_point(b);
+        fold_word((uint32_t)msw_frame_closest_point(&deform, frame, a, budget_of(round), scratch,
+                                                    count, &near));
+        fold_closest(&near);
+        fold_word((uint32_t)msw_frame_first_hit(&deform, frame, a, b, budget_of(round), scratch,
+                                                count, &hit));
+        fold_hit(&hit);
+        fold_word((uint32_t)msw_frame_sweep_to(&sweep, frame));
+        random_step(place);
+        fold_word((uint32_t)msw_frame_sweep_move_to(&sweep, place));
+        fold_word((uint32_t)msw_frame_sweep_closest_point(&sweep, budget_of(round), &near));
+        fold_closest(&near);
+        for (int rank = 0; rank < 2; rank++) {
+            fold_word((uint32_t)msw_frame_sweep_next(&sweep, NULL, &near));
+            fold_closest(&near);
+        }
+    }
+    end("frames");
+}
+
+static void moved_vertices(void)
+{
+    static msw_deform deform;
+    static msw_moved moved;
+    static msw_moved_sweep sweep;
+    float place[3], a[3], b[3];
+    msw_closest near;
+    msw_hit hit;
+    begin();
+    fold_word((uint32_t)msw_open_deform(&deform, bend, bend_bytes));
+    fold_word((uint32_t)msw_moved_begin(&moved, &deform, records[0], RECORDS));
+    near_point(place);
+    fold_word((uint32_t)msw_moved_sweep_begin(&sweep, &deform, records[1], RECORDS, place, kept,
+                                              KEPT));
+    const size_t count = msw_deform_scratch_entries(&deform);
+    const uint32_t vertex_count = msw_deform_vertices(&deform);
+    for (int round = 0; round < ROUNDS; round++) {
+        random_vertices(vertex_count);
+        const float slack = (float)(round % 3) * 0.25f;
+        const float(*places)[3] = (const float(*)[3])vertices;
+        near_point(a);
+        near_point(b);
+        fold_word((uint32_t)msw_moved_update(&moved, slack, places, vertex_count));
+        fold_word((uint32_t)msw_moved_closest_point(&moved, a, budget_of(round), scratch, count,
+                                                    &near));
+        fold_closest(&near);
+        fold_word((uint32_t)msw_moved_first_hit(&moved, a, b, budget_of(round), scratch, count,
+                                                &hit));
+        fold_hit(&hit);
+        fold_word((uint32_t)msw_moved_sweep_update(&sweep, slack, places, vertex_count));
+        random_step(place);
+        fold_word((uint32_t)msw_moved_sweep_move_to(&sweep, place));
+        fold_word((uint32_t)msw_moved_sweep_closest_point(&sweep, budget_of(round), &near));
+        fold_closest(&near);
+        for (int rank = 0; rank < 2; rank++) {
+            fold_word((uint32_t)msw_moved_sweep_next(&sweep, NULL, &near));
+            fold_closest(&near);
+        }
+    }
+    end("moved");
 }
 
 /* What is refused, and that the answer is zeroed. */
@@ -713,6 +866,29 @@ static void refusals(const msw_model *model)
     fold_word((uint32_t)msw_open_sdf(&sdf, groove, groove_bytes));
     fold_word((uint32_t)msw_sdf_distance_in_units(&sdf, NULL, &units));
     fold(&units, sizeof units);
+    /* Of a mesh that deforms: no such frame, a blob without one, nothing begun, too few records,
+     * too few vertices, a vertex that is no number, and the question after it. */
+    static msw_deform deform;
+    static msw_moved moved;
+    static msw_sweep sweep;
+    static float vertices_of[VERTICES][3];
+    const float(*places)[3] = (const float(*)[3])vertices_of;
+    fold_word((uint32_t)msw_open_deform(&deform, bend, bend_bytes));
+    const uint32_t vertex_count = msw_deform_vertices(&deform);
+    fold_word((uint32_t)msw_frame_closest_point(&deform, 9.0f, point, NULL, scratch, count,
+                                                &answer));
+    fold(&answer, sizeof answer);
+    fold_word((uint32_t)msw_sweep_closest_point(&sweep, NULL, &answer));
+    fold_word((uint32_t)msw_moved_closest_point(&moved, point, NULL, scratch, count, &answer));
+    fold_word((uint32_t)msw_moved_begin(&moved, &deform, records[0], 1));
+    fold_word((uint32_t)msw_moved_begin(&moved, &deform, records[0], RECORDS));
+    fold_word((uint32_t)msw_moved_update(&moved, 0.0f, places, vertex_count - 1));
+    fold_word((uint32_t)msw_moved_update(&moved, -1.0f, places, vertex_count));
+    vertices_of[0][0] = not_a_number[2];
+    fold_word((uint32_t)msw_moved_update(&moved, 0.0f, places, vertex_count));
+    fold_word((uint32_t)msw_moved_closest_point(&moved, point, NULL, scratch, count, &answer));
+    fold_word((uint32_t)msw_open_deform(&deform, groove, groove_bytes));
+    fold_word((uint32_t)msw_moved_begin(&moved, &deform, records[0], RECORDS));
     end("refusals");
 }
 
@@ -740,6 +916,9 @@ int main(void)
     distance_field();
     tight_hull();
     refined_hull();
+    sweeps();
+    key_frames();
+    moved_vertices();
     refusals(&model);
     return 0;
 }

@@ -17,6 +17,7 @@
     blob torus
     blob fence
     blob field
+    blob bend
 
 #ifdef __linux__
     .section .note.GNU-stack, "", %progbits

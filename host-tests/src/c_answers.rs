@@ -2,6 +2,8 @@
 //! itself. It shares no code with the C interface: codes and the order of fields are written here
 //! once more.
 
+mod kept;
+
 use crate::corrupt::{entry, put_u32, seal, word};
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
@@ -183,6 +185,7 @@ pub fn lines(
     torus: &[u8],
     fence: &[u8],
     field: &[u8],
+    bend: &[u8],
 ) -> Result<String, Box<dyn std::error::Error>> {
     let model = Bvh::open(groove)?;
     let mut kind = Kind::begin();
@@ -205,6 +208,9 @@ pub fn lines(
     text += &distance_field(field)?;
     text += &tight_hull(hulls)?;
     text += &refined_hull(bracket)?;
+    text += &kept::sweeps(bracket)?;
+    text += &kept::frames(bend)?;
+    text += &kept::moved(bend)?;
     Ok(text + &refusals())
 }
 
@@ -618,6 +624,11 @@ fn refined_hull(bracket: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
             kind.floats(&[(f64::from(face.radius) * hull.scale()) as f32]);
         }
     }
+    for _ in 0..3 {
+        let found = refined.sweep_to(&hull, kind.point(), 4.0)?;
+        kind.words(&[0, u32::from(found.error_left == 0.0), found.error_left.to_bits()]);
+        kind.words(&[found.faces, found.splits, 0]);
+    }
     Ok(kind.line("refine"))
 }
 
@@ -656,6 +667,11 @@ fn refusals() -> String {
     // A blob without a field, the field that was not opened.
     codes(&mut kind, &[-26, -3]);
     kind.words(&[0; 2]);
+    // Meshes that deform: no such frame; nothing begun, twice; too few records, enough; too few
+    // vertices, a slack below 0, NaN, a question after it; a blob without one, what it left.
+    codes(&mut kind, &[0, -50]);
+    kind.words(&zeros);
+    codes(&mut kind, &[-3, -3, -6, 0, -4, -41, -42, -51, -26, -3]);
     kind.line("refusals")
 }
 
@@ -667,6 +683,8 @@ pub fn of_fixtures(folder: &std::path::Path) -> Result<String, String> {
     let read =
         |name: &str| std::fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"));
     let [groove, hulls, bracket] = [read("groove.msw")?, read("hulls.msw")?, read("bracket.msw")?];
-    let [torus, fence, field] = [read("torus.msw")?, read("fence.msw")?, read("field.msw")?];
-    lines(&groove, &hulls, &bracket, &torus, &fence, &field).map_err(|error| error.to_string())
+    let [torus, fence] = [read("torus.msw")?, read("fence.msw")?];
+    let [field, bend] = [read("field.msw")?, read("bend.msw")?];
+    lines(&groove, &hulls, &bracket, &torus, &fence, &field, &bend)
+        .map_err(|error| error.to_string())
 }

@@ -180,7 +180,8 @@ impl<'w> Work<'w> {
             return Ok(None);
         }
         let levels = match frames {
-            Some(frames) => Levels::Deform(frames),
+            Some(frames) if self.options.wants_solid() => Levels::Deform(frames),
+            Some(frames) => Levels::SweepDeform(frames),
             None if self.options.wants_solid() => Levels::Hulls,
             None => Levels::Sweep,
         };
@@ -247,7 +248,7 @@ fn load(
             Frame::File(file) => Source::of_file(&file, options.unit),
             Frame::Mesh(mesh) => Source::of(*mesh, options.unit),
         });
-        let (loaded, keys) = source.deformable(frames)?;
+        let (loaded, keys) = source.deformable(frames, options.wants_solid())?;
         return Ok((loaded, Some(keys)));
     }
     let loaded = match options.wants_hierarchy() {

@@ -37,7 +37,8 @@ pub enum For {
     Tight,
     /// Curves.
     Curve,
-    /// Outer hulls of a closed mesh that deforms.
+    /// Outer hulls of a closed mesh that deforms. With [`Sweep`](Self::Sweep) and without
+    /// [`Hull`](Self::Hull): a hierarchy of any mesh that deforms.
     Deform,
     /// Winding numbers, by the box tree.
     Winding,
@@ -189,11 +190,11 @@ impl Options {
 
     /// Whether the blob holds hulls of a closed mesh.
     pub fn wants_solid(&self) -> bool {
-        self.serves(For::Hull) || self.serves(For::Deform)
+        self.serves(For::Hull) || (self.serves(For::Deform) && !self.serves(For::Sweep))
     }
 
     pub fn wants_hierarchy(&self) -> bool {
-        self.wants_solid() || self.serves(For::Sweep)
+        [For::Hull, For::Sweep, For::Deform].iter().any(|&of| self.serves(of))
     }
 
     pub fn wants_tree(&self) -> bool {

@@ -108,7 +108,7 @@ pub(crate) fn verify(bytes: &[u8], input: Input<'_>, keys: &[KeyFrame], out: &mu
         ),
         Ok(_) => Finding::not_proved(HULL, "how far triangles without area are from it".to_owned()),
     });
-    match surface::numbers(bytes, &blob, input.mesh, &places) {
+    match surface::numbers(bytes, &blob, &given, &places) {
         Err(error) => out.push(Finding::failed("vertex numbers", error)),
         Ok(0) => {}
         Ok(vertices) => out.push(Finding::proved(

@@ -48,6 +48,18 @@ pub enum Levels<'a> {
     /// The mesh must pass [`require_deformable`](crate::mesh::require_deformable), and frames come
     /// from [`key_frame`](crate::mesh::key_frame).
     Deform(&'a [KeyFrame]),
+    /// The same with the levels of [`Sweep`](Levels::Sweep), of any mesh.
+    SweepDeform(&'a [KeyFrame]),
+}
+
+impl<'a> Levels<'a> {
+    /// The frames of a mesh that deforms.
+    fn frames(self) -> Option<&'a [KeyFrame]> {
+        match self {
+            Levels::Hulls | Levels::Sweep => None,
+            Levels::Deform(frames) | Levels::SweepDeform(frames) => Some(frames),
+        }
+    }
 }
 
 /// Options of a build.
@@ -142,8 +154,12 @@ pub fn build(
     watch: Watch<'_>,
 ) -> Result<(Sections, BuildReport), BuildError> {
     let collapsing = watch.part(0.0, COLLAPSING);
+    let is_exact = matches!(options.vertex_bits, VertexBits::Auto | VertexBits::F32);
+    if options.levels.frames().is_some() && (!is_exact || input.moved > 0.0) {
+        return Err(BuildError::NotExact);
+    }
     let collapsed = match options.levels {
-        Levels::Sweep => near(input.mesh, options, collapsing),
+        Levels::Sweep | Levels::SweepDeform(_) => near(input.mesh, options, collapsing),
         Levels::Hulls | Levels::Deform(_) => outer(input, options, collapsing),
     }?;
     let certifying = watch.part(COLLAPSING, 1.0).during(Stage::Certifying);
@@ -157,10 +173,6 @@ fn outer(
     watch: Watch<'_>,
 ) -> Result<Collapsed, BuildError> {
     let mesh = input.mesh;
-    let is_exact = matches!(options.vertex_bits, VertexBits::Auto | VertexBits::F32);
-    if matches!(options.levels, Levels::Deform(_)) && (!is_exact || input.moved > 0.0) {
-        return Err(BuildError::NotExact);
-    }
     if mesh.triangles.len() > MAX_TRIANGLES {
         return Err(BuildError::TooLarge { triangles: mesh.triangles.len(), most: MAX_TRIANGLES });
     }
@@ -170,7 +182,8 @@ fn outer(
     let started = Instant::now();
     let (history, stuck, programs) = collapse(&stored, mesh, options, options.base_faces, watch)?;
     let (time, kind) = (started.elapsed(), Kind::Hulls { volume });
-    Ok(Collapsed { stored, history, stuck, programs, time, kind, wires })
+    let places = (0..history.original_vertices).collect();
+    Ok(Collapsed { stored, history, stuck, programs, time, kind, wires, places })
 }
 
 /// The collapses of any mesh.
@@ -198,7 +211,7 @@ fn near(
     let engine = Engine::near(&positions, &triangles, count - fillers, conditions, grid);
     let (history, stuck, programs) = run(engine, options.base_faces, watch)?;
     let (time, kind) = (started.elapsed(), Kind::SweepOnly { holes, copies });
-    Ok(Collapsed { stored, history, stuck, programs, time, kind, wires })
+    Ok(Collapsed { stored, history, stuck, programs, time, kind, wires, places })
 }
 
 /// A mesh and its collapses.
@@ -211,6 +224,8 @@ struct Collapsed {
     /// Volume in the local frame.
     kind: Kind,
     wires: f64,
+    /// The vertex of the mesh that has the place of each original vertex of the history.
+    places: Vec<u32>,
 }
 
 /// From the collapses to the sections.
@@ -220,20 +235,18 @@ fn finish(
     collapsed: Collapsed,
     watch: Watch<'_>,
 ) -> Result<(Sections, BuildReport), BuildError> {
-    let Collapsed { stored, history, stuck, programs, time: collapse_time, kind, wires } =
+    let Collapsed { stored, history, stuck, programs, time: collapse_time, kind, wires, places } =
         collapsed;
-    let frames = match wanted {
-        Levels::Deform(frames) => Some(frames),
-        Levels::Hulls | Levels::Sweep => None,
-    };
+    let frames = wanted.frames();
     let started = Instant::now();
     let order = VertexOrder::new(&history);
     let mesh = input.mesh;
-    let mut tracks = KeyTracks::new(&history, &stored, mesh, frames.unwrap_or(&[]))?;
+    let mut tracks = KeyTracks::new(&history, &stored, (mesh, &places), frames.unwrap_or(&[]))?;
     let cover = |instance: u32, below: &[u32], corners| {
         tracks.cover(&history.positions, instance, below, corners);
     };
     let forest = grow(&history, cover, watch.part(0.0, 0.5))?;
+    tracks.leave_out(&forest.radius);
     let sweep_time = started.elapsed();
     let started = Instant::now();
     let mut tables = assemble(&stored, input, &history, &order, &forest);
@@ -251,7 +264,7 @@ fn finish(
     }
     let mut sections = tables.sections();
     if frames.is_some() {
-        let numbers = vertex_numbers(&tables, &order, mesh);
+        let numbers = vertex_numbers(&tables, &order, (mesh, &places));
         sections.bodies.push((SectionKind::VertexNumbers, numbers));
         sections.bodies.push((SectionKind::KeyFrames, tracks.section(&history, &order)));
     }

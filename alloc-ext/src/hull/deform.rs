@@ -17,11 +17,16 @@ use meshsweep_core::internal::geom::point_triangle;
 use meshsweep_core::internal::num::tolerance::{DEFORM_DOMAIN, FIXED_POINT, U64};
 use meshsweep_core::internal::num::{Radius8, exp2, up_to_f32};
 
-/// The body of the section of vertex numbers.
-pub fn vertex_numbers(tables: &Tables, order: &VertexOrder, mesh: &Mesh) -> Vec<u8> {
+/// The body of the section of vertex numbers. `places`: the vertex of the mesh that has the place
+/// of each label of the surface.
+pub fn vertex_numbers(
+    tables: &Tables,
+    order: &VertexOrder,
+    (mesh, places): (&Mesh, &[u32]),
+) -> Vec<u8> {
     let of_surface = order.label.iter().zip(&tables.splits_with).filter(|(_, with)| with.is_none());
     let numbers: Vec<u32> =
-        of_surface.map(|(&label, _)| mesh.vertex_source[label as usize]).collect();
+        of_surface.map(|(&label, _)| mesh.vertex_source[places[label as usize] as usize]).collect();
     let above = numbers.iter().max().map_or(0, |&most| most + 1);
     let mut body = above.to_le_bytes().to_vec();
     let width = index_bytes(above as usize);
@@ -45,22 +50,23 @@ struct KeyTrack {
 pub struct KeyTracks(Vec<KeyTrack>);
 
 impl KeyTracks {
-    /// Places of all vertices; radii are 0 until [`cover`](Self::cover) raises them.
+    /// Places of all vertices; radii are 0 until [`cover`](Self::cover) raises them. A vertex of the
+    /// surface has the place of a vertex of the mesh, by `places`.
     ///
     /// # Errors
     /// [`BuildError::FrameTooFar`].
     pub fn new(
         history: &History,
         stored: &Stored,
-        mesh: &Mesh,
+        (mesh, places): (&Mesh, &[u32]),
         frames: &[KeyFrame],
     ) -> Result<Self, BuildError> {
         let track = |(index, frame): (usize, &KeyFrame)| {
             let scale = exp2(-stored.scale_exponent);
             let mut error = 0f64;
             let mut positions = Vec::with_capacity(history.positions.len());
-            for (vertex, place) in frame.positions[..stored.positions.len()].iter().enumerate() {
-                let exact = DVec3::from(place.map(f64::from)) * scale;
+            for vertex in places.iter().map(|&vertex| vertex as usize) {
+                let exact = DVec3::from(frame.positions[vertex].map(f64::from)) * scale;
                 let single = exact.as_vec3();
                 let fits = single.abs().max_element() < DEFORM_DOMAIN;
                 if !fits {
@@ -101,6 +107,16 @@ impl KeyTracks {
                 let distance = distance_up(at(vertex), corners.map(at), fixed);
                 let radius = &mut track.radius[instance as usize];
                 *radius = radius.max(distance);
+            }
+        }
+    }
+
+    /// Instances that stand for no part of the surface at rest, whose radii are infinite, stand for
+    /// none in any frame.
+    pub fn leave_out(&mut self, at_rest: &[f64]) {
+        for track in &mut self.0 {
+            for (radius, at_rest) in track.radius.iter_mut().zip(at_rest) {
+                *radius = if at_rest.is_finite() { *radius } else { f64::INFINITY };
             }
         }
     }

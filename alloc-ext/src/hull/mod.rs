@@ -20,6 +20,6 @@ mod wires;
 
 pub use build::{BuildOptions, BuildReport, Kind, Levels, build, hull_of};
 pub use cut::cut;
-pub use stored::{enclosing_input, mesh_of, sticks_out_note};
+pub use stored::{enclosing_input, mesh_of, placed_mesh, sticks_out_note};
 pub use tables::{SplitRecord, Tables};
 pub use wires::{wires_note, wires_off_surface};

@@ -10,13 +10,22 @@ use meshsweep_core::{Hull, HullFace, VertIdx};
 /// Faces of a hull as a mesh in the mesh's unit. The scale is a power of two, so its vertices are
 /// exactly the stored ones.
 pub fn mesh_of(hull: &Hull<'_>, faces: impl Iterator<Item = HullFace>) -> Mesh {
+    placed_mesh(hull, faces, |vertex| hull.vertex(vertex))
+}
+
+/// The same with vertices that `place` puts somewhere, as those of a hull that deforms.
+pub fn placed_mesh(
+    hull: &Hull<'_>,
+    faces: impl Iterator<Item = HullFace>,
+    place: impl Fn(VertIdx) -> Option<[f32; 3]>,
+) -> Mesh {
     let mut number = vec![None; hull.header().vertices as usize];
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
     for face in faces {
         triangles.push(face.corners.map(|vertex: VertIdx| {
             *number[vertex.usize()].get_or_insert_with(|| {
-                positions.push(hull.vertex(vertex).unwrap_or_default());
+                positions.push(place(vertex).unwrap_or_default());
                 positions.len() as u32 - 1
             })
         }));

@@ -185,17 +185,21 @@ impl Source {
         self.loaded(moved, Some(&places))
     }
 
-    /// Repairs a solid that deforms, and applies its repairs to its key frames.
+    /// Repairs a mesh that deforms, and applies its repairs to its key frames. With `is_solid` it
+    /// has to be closed.
     ///
     /// # Errors
     /// [`BuildError::NotSolid`], [`BuildError::Mesh`]; the first error of `frames`.
     pub fn deformable(
         &self,
         frames: impl Iterator<Item = Result<Self, BuildError>>,
+        is_solid: bool,
     ) -> Result<(Loaded, Vec<KeyFrame>), BuildError> {
         let started = self.started;
         let loaded = self.repaired()?;
-        loaded.require_solid()?;
+        if is_solid {
+            loaded.require_solid()?;
+        }
         let (raw, file) = (&self.raw, &self.raw.file);
         require_deformable(raw, &loaded.mesh).map_err(|error| refused(file, error))?;
         let keys = frames.map(|frame| {

@@ -74,6 +74,61 @@ fn frames_are_answered_as_the_files_say() {
     }
 }
 
+/// The torus without every seventh face.
+fn holed(mesh: &Path, directory: &Path, name: &str) -> PathBuf {
+    let text = fs::read_to_string(mesh).expect("just written");
+    let mut face = 0;
+    let kept = text.lines().filter(|line| {
+        face += usize::from(line.starts_with("f "));
+        !line.starts_with("f ") || face % 7 != 0
+    });
+    let file = directory.join(name);
+    fs::write(&file, kept.flat_map(|line| [line, "\n"]).collect::<String>()).expect("written");
+    file
+}
+
+#[test]
+fn an_open_mesh_deforms_with_a_hierarchy_for_sweeps() {
+    let directory = scratch("deform_open");
+    let [rest, bent] = frames(&directory);
+    let (rest, bent) = (holed(&rest, &directory, "o.obj"), holed(&bent, &directory, "b.obj"));
+    let message = refused(&build(&directory, &[&rest, &bent]), 1, "o.obj");
+    assert!(message.contains("--for sweep"), "{message}");
+    let output = directory.join("open.msw");
+    let meshes = [arg(&rest), arg(&bent)];
+    ok([&["build"], &meshes[..], &["-o", arg(&output), "--for", "sweep,deform"]].concat());
+    let (from, to) = (triangles(&rest), triangles(&bent));
+    for (frame, part) in [("0", 0.0), ("0.5", 0.5), ("1", 1.0)] {
+        let between = |(a, b): (&Triangle, &Triangle)| {
+            std::array::from_fn(|i| std::array::from_fn(|k| a[i][k] + (b[i][k] - a[i][k]) * part))
+        };
+        let at: Vec<Triangle> = from.iter().zip(&to).map(between).collect();
+        let answer = ok(["closest", arg(&output), "3,1,2", "-0.5,0.25,0", "--frame", frame]);
+        for row in parse_csv(&answer, "x,y,z,lower,upper,px,py,pz,triangle,work") {
+            let truth = distance([0, 1, 2].map(|k| number(&row[k])), &at);
+            let (lower, upper) = (number(&row[3]), number(&row[4]));
+            assert!(lower <= truth + 1e-12 && truth - 1e-12 <= upper, "{frame}: {row:?}: {truth}");
+        }
+        let rows = ok(["nearest", arg(&output), "3,1,2", "-n", "4", "--frame", frame]);
+        let mut away: Vec<f64> = at.iter().map(|&t| distance([3.0, 1.0, 2.0], &[t])).collect();
+        away.sort_by(f64::total_cmp);
+        let rows = parse_csv(&rows, "query,rank,lower,upper,px,py,pz,triangle,work");
+        assert_eq!(rows.len(), 4);
+        for (row, truth) in rows.iter().zip(&away) {
+            let own = distance([3.0, 1.0, 2.0], &[at[number(&row[7]) as usize]]);
+            let (lower, upper) = (number(&row[2]), number(&row[3]));
+            assert!(lower <= own + 1e-12 && own - 1e-12 <= upper, "{frame}: {row:?}: {own}");
+            assert!((own - truth).abs() < 1e-5, "{frame}: {row:?}: {truth}");
+        }
+        let drawn = directory.join("swept.ply");
+        let sweep = ["refine", arg(&output), "-o", arg(&drawn), "--sweep", "3,1,2"];
+        let said = ok([&sweep[..], &["--frame", frame]].concat());
+        assert!(said.contains("error left 0") && said.contains("  distance "), "{said}");
+    }
+    let proofs = ok([&["verify", arg(&output)], &meshes[..]].concat());
+    assert!(proofs.contains("key frames") && !proofs.contains("not proved"), "{proofs}");
+}
+
 #[test]
 fn a_blob_without_frames_names_what_it_lacks() {
     let directory = scratch("deform_not_served");

@@ -1,7 +1,7 @@
 //! `meshsweep refine`: the hull is closed, holds the mesh, and is fine where it is wanted.
 
 use crate::support::{
-    Point, arg, fixture, hull_blob, ok, refused, run, scratch, triangles, volume,
+    Point, arg, fixture, hull_blob, number, ok, parse_csv, refused, run, scratch, triangles, volume,
 };
 use meshsweep::mesh;
 use meshsweep_core::{Budget, Bvh, Scratch};
@@ -85,6 +85,28 @@ fn every_focus_refines_a_part_that_holds_the_mesh_s_own_vertices() {
 }
 
 #[test]
+fn the_mesh_of_a_sweep_holds_the_closest_triangle_and_is_coarser_than_the_part() {
+    let directory = scratch("refine_sweep");
+    let (blob, out) =
+        (hull_blob(&directory, "torus.ply", &["--base", "60"]), directory.join("h.ply"));
+    let solid = triangles(&fixture("torus.ply"));
+    for point in ["4,0.1,0.2", "0,2.5,1.5", "-2.2,-2.1,0.4"] {
+        let text = ok(["refine", arg(&blob), "-o", arg(&out), "--sweep", point]);
+        let faces = closed(&out);
+        assert!(text.contains("error left 0\n"), "{text}");
+        assert!((60..solid.len() * 4 / 5).contains(&faces.len()), "{point}: {}", faces.len());
+        assert!(volume(&faces) > volume(&solid), "{point}");
+        let answer = ok(["closest", arg(&blob), point]);
+        let row = &parse_csv(&answer, "x,y,z,lower,upper,px,py,pz,triangle,work")[0];
+        let nearest = solid[number(&row[8]) as usize];
+        let is_it =
+            |face: &[Point; 3]| (0..3).any(|k| nearest == [0, 1, 2].map(|i| face[(i + k) % 3]));
+        assert!(faces.iter().any(is_it), "{point}");
+        assert!(text.contains("  distance "), "{text}");
+    }
+}
+
+#[test]
 fn a_focus_that_is_half_given_or_given_twice_is_wrong_usage() {
     let directory = scratch("refine_usage");
     let (blob, out) = (hull_blob(&directory, "torus.ply", &[]), directory.join("h.ply"));
@@ -97,6 +119,8 @@ fn a_focus_that_is_half_given_or_given_twice_is_wrong_usage() {
         &["--eye", "1,2,3", "--look", "0,0,1", "--fov", "20"],
         &["--look", "0,0,1", "--error", "1"],
         &["--error", "-1"],
+        &["--sweep", "1,2,3", "--error", "1"],
+        &["--near", "1,2,3", "--error", "1", "--frame", "0"],
     ] {
         let all = [&["refine", arg(&blob), "-o", arg(&out)], options].concat();
         assert_eq!(run(all).status.code(), Some(2), "{options:?}");

@@ -53,9 +53,11 @@ enum {
     MSW_ERROR_NULL = -1,            /* a pointer is NULL */
     MSW_ERROR_ALIGNMENT = -2,       /* a pointer is not aligned for its type */
     MSW_ERROR_NOT_OPENED = -3,      /* the model was not opened, or its open function failed */
-    MSW_ERROR_COUNT = -4,           /* a count is larger than memory or a limit; no corner */
+    MSW_ERROR_COUNT = -4,           /* a count is larger than memory or a limit; no corner; too few
+                                       vertices of a mesh that deforms */
     MSW_ERROR_VALUE = -5,           /* a facing or a kind is no constant of this header */
-    MSW_ERROR_MEMORY = -6,          /* of a refined hull, see msw_refine; too few of a scene */
+    MSW_ERROR_MEMORY = -6,          /* of a refined hull, see msw_refine; too few of a scene, or of
+                                       a moved hull */
     MSW_ERROR_NO_SUCH_HULL = -7,    /* the blob has no tight hull of this number */
     /* Of the open functions: */
     MSW_ERROR_TRUNCATED = -20,      /* the blob is cut short */
@@ -75,7 +77,9 @@ enum {
     MSW_ERROR_INTERNAL = -46,       /* the bytes of the blob changed, or a fault of the library */
     MSW_ERROR_NO_MODEL = -47,       /* a scene lacks a named model, or a pair names one twice */
     MSW_ERROR_NOT_PLANAR = -48,     /* a curve's points differ in z, so it bounds no area */
-    MSW_ERROR_OPEN_POLYLINE = -49   /* a polyline is not closed, so it bounds no area */
+    MSW_ERROR_OPEN_POLYLINE = -49,  /* a polyline is not closed, so it bounds no area */
+    MSW_ERROR_NO_FRAME = -50,       /* a key frame is not in the blob */
+    MSW_ERROR_NO_POSE = -51         /* the last update of the vertices was refused */
 };
 
 /* Verdicts. MSW_YES and MSW_NO are proved. `!verdict` is not "no": compare, or use msw_is_clear. */
@@ -141,6 +145,7 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 #define MSW_TRIBOXES_WORDS 16
 #define MSW_CURVE_WORDS 24
 #define MSW_SDF_WORDS 15
+#define MSW_DEFORM_WORDS 56
 #define MSW_SCENE_MODEL_ENTRIES 56
 #else
 #define MSW_MODEL_WORDS 52
@@ -150,20 +155,26 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 #define MSW_TRIBOXES_WORDS 20
 #define MSW_CURVE_WORDS 40
 #define MSW_SDF_WORDS 24
+#define MSW_DEFORM_WORDS 72
 #define MSW_SCENE_MODEL_ENTRIES 88
 #endif
 #define MSW_COHERENT_PAIR_WORDS 664
+#define MSW_SWEEP_WORDS 128
+#define MSW_FRAME_SWEEP_WORDS 168
+#define MSW_MOVED_WORDS 72
+#define MSW_MOVED_SWEEP_WORDS 144
 
 /* An opened box tree, an opened tight hull, an opened hull hierarchy, opened triboxes, opened
- * curves, an opened distance field. They point into the blob, which must stay where it is,
- * unchanged, as long as they are used. Copies are as good. A storage of zeros is not opened, and
- * every question about it is refused. */
+ * curves, an opened distance field, an opened hull hierarchy that deforms. They point into the
+ * blob, which must stay where it is, unchanged, as long as they are used. Copies are as good. A
+ * storage of zeros is not opened, and every question about it is refused. */
 typedef struct { uintptr_t opaque[MSW_MODEL_WORDS]; } msw_model;
 typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
 typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
 typedef struct { uintptr_t opaque[MSW_TRIBOXES_WORDS]; } msw_triboxes;
 typedef struct { uintptr_t opaque[MSW_CURVE_WORDS]; } msw_curve;
 typedef struct { uintptr_t opaque[MSW_SDF_WORDS]; } msw_sdf;
+typedef struct { uintptr_t opaque[MSW_DEFORM_WORDS]; } msw_deform;
 
 /* What a query that moves keeps between calls. Zero it before the first call, or to start anew. It
  * belongs to one model at a time, and points to nothing. */
@@ -180,6 +191,18 @@ typedef struct { uintptr_t opaque; } msw_scene_entry;
 #define MSW_SCENE_ENTRIES(models, pairs) \
     (5 + (models) * MSW_SCENE_MODEL_ENTRIES \
      + ((pairs) * 24 + sizeof(uintptr_t) - 1) / sizeof(uintptr_t))
+
+/* A hull whose vertices the caller moves, and sweeps that are kept: of a hull at rest, at key
+ * frames, with moved vertices. A function begins each. It points into the blob and to the arrays
+ * that it was begun with. Both must stay where they are, and the arrays are used by nobody else, as
+ * long as it is asked. Memory of zeros is not begun, and every question about it is refused. */
+typedef struct { uint64_t opaque[MSW_MOVED_WORDS]; } msw_moved;
+typedef struct { uint64_t opaque[MSW_SWEEP_WORDS]; } msw_sweep;
+typedef struct { uint64_t opaque[MSW_FRAME_SWEEP_WORDS]; } msw_frame_sweep;
+typedef struct { uint64_t opaque[MSW_MOVED_SWEEP_WORDS]; } msw_moved_sweep;
+
+/* Sixteen bytes of a moved hull's memory: one vertex of one level. Need not be initialised. */
+typedef struct { uint32_t opaque[4]; } msw_moved_vertex;
 
 /* Where the last closest point was found. Zeros are no hint. Any contents are safe, of another
  * model too: a bad hint costs a leaf. */
@@ -1024,12 +1047,140 @@ int32_t msw_refine(const msw_hull *hull, msw_refined_entry *refined, size_t refi
                    const msw_focus *focus, float error,
                    msw_refinement *answer);
 
+/* Makes the mesh that a sweep about `point` ends with at `distance`, as the upper end of a closest
+ * point: fine near the closest point, and as coarse elsewhere as the tables allow.
+ *
+ * If is_complete is 1, every triangle of the surface within `distance` of `point` is a face, and
+ * any other face stands for a part that is farther. The hull starts from the coarsest one:
+ * `performed` counts all splits, and `undone` is 0. Memory and errors as of msw_refine, and
+ * MSW_ERROR_TOLERANCE of a distance that is negative, NaN or infinite.
+ * Cost: linear in the coarsest hull and the performed splits. */
+int32_t msw_refine_swept(const msw_hull *hull, msw_refined_entry *refined, size_t refined_count,
+                         const float point[3], float distance,
+                         msw_refinement *answer);
+
 /* The faces of a refined hull. With another hull than the one that was refined, and of zeros, they
  * are the coarsest hull's. `faces` may be NULL with a count of 0: `dropped` is then their number.
  * Cost: linear in the coarsest hull and the performed splits. */
 int32_t msw_refined_faces(const msw_hull *hull, msw_refined_entry *refined, size_t refined_count,
                           msw_face *faces, size_t face_count,
                           msw_faces_answer *answer);
+
+/* ---- Sweeps that are kept: build --for hull or sweep ----
+ *
+ * A closest point of a hull hierarchy that is interrupted and goes on, or is asked again after a
+ * small motion, or gives one triangle after another. msw_sweep is of a mesh at rest. The frame
+ * sweep and the moved sweep further down have the same three functions. */
+
+/* How many scratch entries are always enough for a sweep. 0 if `hull` is not opened. Near scanned
+ * parts a thousand hold all; with fewer a sweep begins anew more often. */
+uint32_t msw_hull_sweep_entries(const msw_hull *hull);
+
+/* Begins a sweep about `point`. `scratch` belongs to the sweep from now on. After an error the
+ * sweep is not begun. Cost: some hundred instructions. */
+int32_t msw_sweep_begin(msw_sweep *sweep, const msw_hull *hull, const float point[3],
+                        msw_scratch_entry *scratch, size_t scratch_count);
+
+/* Moves the point of a sweep. Cost: constant. */
+int32_t msw_sweep_move_to(msw_sweep *sweep, const float point[3]);
+
+/* The closest point, as msw_closest_point says. After MSW_ENDED_STEPS or MSW_ENDED_TOLERANCE
+ * another call goes on where this one stopped. Cost: up to twelve triangles after a small motion,
+ * else that of a search. */
+int32_t msw_sweep_closest_point(msw_sweep *sweep, const msw_budget *budget, msw_closest *answer);
+
+/* The next triangle by rising distance, with its own interval. Once distance.lower exceeds d, every
+ * triangle within d has come. After the last one `triangle` is MSW_NO_TRIANGLE and distance.lower
+ * infinite. If the search ends early, `triangle` is MSW_NO_TRIANGLE, and no triangle that is left
+ * is nearer than distance.lower. After a motion or a closest point the nearest comes again. Of the
+ * budget only `steps` matters. */
+int32_t msw_sweep_next(msw_sweep *sweep, const msw_budget *budget, msw_closest *answer);
+
+/* ---- Meshes that deform: build --for deform, or sweep,deform ---- */
+
+/* Opens the hull hierarchy of a mesh that deforms. As msw_open. */
+int32_t msw_open_deform(msw_deform *deform, const void *bytes, size_t count);
+
+/* The mesh at rest, for questions about a hull hierarchy. */
+int32_t msw_deform_hull(msw_hull *hull, const msw_deform *deform);
+
+/* How many scratch entries are always enough for a question about one frame or pose; key frames,
+ * the mesh at rest among them; vertices of the input file; vertex records of a moved hull. 0 if
+ * `deform` is not opened. */
+uint32_t msw_deform_scratch_entries(const msw_deform *deform);
+uint32_t msw_deform_frames(const msw_deform *deform);
+uint32_t msw_deform_vertices(const msw_deform *deform);
+uint32_t msw_deform_records(const msw_deform *deform);
+
+/* The closest point of the mesh at a key frame, or between two: 1.25 is a quarter of the way from
+ * frame 1 to frame 2. Errors: MSW_ERROR_NO_FRAME. Else as msw_closest_point. */
+int32_t msw_frame_closest_point(const msw_deform *deform, float frame, const float point[3],
+                                const msw_budget *budget,
+                                msw_scratch_entry *scratch, size_t scratch_count,
+                                msw_closest *answer);
+
+/* The first hit of a segment, as msw_first_hit of both facings. Between keys no hit is proved: the
+ * way is clear, or undecided. */
+int32_t msw_frame_first_hit(const msw_deform *deform, float frame, const float a[3],
+                            const float b[3],
+                            const msw_budget *budget,
+                            msw_scratch_entry *scratch, size_t scratch_count,
+                            msw_hit *answer);
+
+/* Begins a hull whose vertices the caller moves, at rest. `records`: msw_deform_records of them,
+ * which belong to it from now on. MSW_ERROR_MEMORY: too few. After an error it is not begun. */
+int32_t msw_moved_begin(msw_moved *moved, const msw_deform *deform,
+                        msw_moved_vertex *records, size_t record_count);
+
+/* Moves the vertices of the mesh. `vertices` has the place of each vertex of the input file, by its
+ * number, msw_deform_vertices of them. It is read during the call alone.
+ *
+ * The bounds of coarse levels stay as they are until the vertices moved by more than `slack` since
+ * these were computed; 0 computes them now. A rigid motion of the whole mesh makes bounds loose:
+ * carry points into the part's frame instead.
+ * Errors: MSW_ERROR_COUNT: too few vertices. MSW_ERROR_TOLERANCE: the slack.
+ * MSW_ERROR_OUT_OF_DOMAIN: a vertex is NaN, or 64 times as far as the mesh is large. Then questions
+ * are refused by MSW_ERROR_NO_POSE until the next update.
+ * Cost: one pass over the vertices of the mesh, or over those of all levels. */
+int32_t msw_moved_update(msw_moved *moved, float slack, const float (*vertices)[3],
+                         size_t vertex_count);
+
+/* The same questions of the mesh as the last update left it. */
+int32_t msw_moved_closest_point(msw_moved *moved, const float point[3],
+                                const msw_budget *budget,
+                                msw_scratch_entry *scratch, size_t scratch_count,
+                                msw_closest *answer);
+int32_t msw_moved_first_hit(msw_moved *moved, const float a[3], const float b[3],
+                            const msw_budget *budget,
+                            msw_scratch_entry *scratch, size_t scratch_count,
+                            msw_hit *answer);
+
+/* A sweep of the mesh at a frame, which goes to other frames. After msw_frame_sweep_to bounds lose
+ * as much as a vertex moved on the way. MSW_ERROR_NO_FRAME changes nothing. The others are as those of
+ * msw_sweep; msw_hull_sweep_entries of the hull at rest are enough. */
+int32_t msw_frame_sweep_begin(msw_frame_sweep *sweep, const msw_deform *deform, float frame,
+                              const float point[3],
+                              msw_scratch_entry *scratch, size_t scratch_count);
+int32_t msw_frame_sweep_to(msw_frame_sweep *sweep, float frame);
+int32_t msw_frame_sweep_move_to(msw_frame_sweep *sweep, const float point[3]);
+int32_t msw_frame_sweep_closest_point(msw_frame_sweep *sweep, const msw_budget *budget,
+                                      msw_closest *answer);
+int32_t msw_frame_sweep_next(msw_frame_sweep *sweep, const msw_budget *budget,
+                             msw_closest *answer);
+
+/* A sweep of a mesh whose vertices the caller moves, at rest when it begins. Arguments are those of
+ * msw_moved_begin, msw_moved_update and msw_sweep. */
+int32_t msw_moved_sweep_begin(msw_moved_sweep *sweep, const msw_deform *deform,
+                              msw_moved_vertex *records, size_t record_count,
+                              const float point[3],
+                              msw_scratch_entry *scratch, size_t scratch_count);
+int32_t msw_moved_sweep_update(msw_moved_sweep *sweep, float slack, const float (*vertices)[3],
+                               size_t vertex_count);
+int32_t msw_moved_sweep_move_to(msw_moved_sweep *sweep, const float point[3]);
+int32_t msw_moved_sweep_closest_point(msw_moved_sweep *sweep, const msw_budget *budget,
+                                      msw_closest *answer);
+int32_t msw_moved_sweep_next(msw_moved_sweep *sweep, const msw_budget *budget,
+                             msw_closest *answer);
 
 /* ---- The library ---- */
 

@@ -153,6 +153,15 @@ impl From<Verdict> for VerdictC {
     }
 }
 
+impl ClosestC {
+    /// No triangle is left.
+    pub(crate) fn none() -> Self {
+        let distance = IntervalC { lower: f32::INFINITY, upper: f32::INFINITY };
+        let ended = ended(Ended::Exact);
+        ClosestC { distance, triangle: NO_TRIANGLE, ended, ..ClosestC::default() }
+    }
+}
+
 impl From<ClosestPoint> for ClosestC {
     fn from(found: ClosestPoint) -> Self {
         ClosestC {

@@ -36,13 +36,15 @@ errors! {
     /// A storage holds no opened model.
     NotOpened = -3, c"the model was not opened, or its open function failed";
     /// An array is larger than memory.
-    Count = -4, c"a count of elements is larger than memory or a limit, or a solid has no corner";
+    Count = -4,
+        c"a count of elements is larger than memory or a limit, a solid has no corner, or a mesh \
+          too few vertices";
     /// A constant is unknown.
     Value = -5, c"a facing or a kind of focus or motion is none of the named constants";
     /// Memory of a refined hull or a scene.
     Memory = -6,
         c"a refined hull needs MSW_REFINED_ENTRIES(splits) entries, zeroed, always as many; \
-          a scene MSW_SCENE_ENTRIES(models, pairs)";
+          a scene MSW_SCENE_ENTRIES(models, pairs); a moved hull msw_deform_records";
     /// A tight hull that is not there.
     NoSuchHull = -7, c"the blob has no tight hull of this number";
 
@@ -83,6 +85,10 @@ errors! {
     NotPlanar = -48, c"the curve's points differ in z, so it bounds no area: give all the same z";
     /// A polyline that is not closed.
     OpenPolyline = -49, c"a polyline is not closed, so it bounds no area: build with --closed";
+    /// A frame that the blob lacks.
+    NoFrame = -50, c"a key frame is not in the blob: 0 to msw_deform_frames - 1";
+    /// Vertices without places.
+    NoPose = -51, c"the last update of the vertices was refused: update them again";
 }
 
 impl Error {
@@ -90,6 +96,11 @@ impl Error {
     pub const fn code(self) -> i32 {
         self as i32
     }
+}
+
+/// 0, or the number of the error.
+pub(crate) fn code(run: impl FnOnce() -> Result<(), Error>) -> i32 {
+    run().map_or_else(Error::code, |()| 0)
 }
 
 impl From<OpenError> for Error {
@@ -118,6 +129,10 @@ impl From<QueryError> for Error {
             QueryError::NoModel => Error::NoModel,
             QueryError::NotPlanar => Error::NotPlanar,
             QueryError::OpenPolyline { .. } => Error::OpenPolyline,
+            QueryError::NoFrame { .. } => Error::NoFrame,
+            QueryError::NoPose => Error::NoPose,
+            QueryError::VertexRecords { .. } => Error::Memory,
+            QueryError::VertexOutOfDomain { .. } => Error::OutOfDomain,
             QueryError::NotServed { .. } | QueryError::NotEnclosing => Error::NotServed,
             _ => Error::Internal,
         }

@@ -48,6 +48,29 @@ pub extern "C" fn msw_refine(
 
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
+pub extern "C" fn msw_refine_swept(
+    hull: In<HullStorage>,
+    mut refined: Out<RefinedEntry>,
+    refined_count: usize,
+    point: In<[f32; 3]>,
+    distance: f32,
+    answer: Out<RefinementC>,
+) -> i32 {
+    answer.answer(|| {
+        let (hull, point) = (hull.view()?, point.get()?);
+        let found = refined.refined(refined_count)?.sweep_to(hull, point, distance)?;
+        Ok(RefinementC {
+            is_complete: u32::from(found.error_left == 0.0),
+            error_left: found.error_left,
+            faces: found.faces,
+            performed: found.splits,
+            undone: 0,
+        })
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
 pub extern "C" fn msw_refined_faces(
     hull: In<HullStorage>,
     mut refined: Out<RefinedEntry>,

@@ -6,7 +6,8 @@
 //! | `error` | negative numbers and their texts |
 //! | `question`, `answer` | structures of the header |
 //! | `ask` | the questions' common part, and the macro of their rows |
-//! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `hull`, `curve`, `sdf`, `pose` | the functions |
+//! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `curve`, `sdf`, `pose` | the functions |
+//! | `hull`, `sweep`, `deform` | those of hull hierarchies, of sweeps, of meshes that deform |
 //!
 //! This crate has no panic handler, so that the workspace builds and tests it like the others.
 //! `host-tests/firmware/c-library` makes the static libraries of it, with the boards' profiles.
@@ -16,6 +17,7 @@
 pub mod answer;
 mod ask;
 pub mod curve;
+pub mod deform;
 pub mod error;
 pub mod hull;
 pub mod memory;
@@ -24,6 +26,7 @@ pub mod pose;
 pub mod question;
 pub mod scene;
 pub mod sdf;
+pub mod sweep;
 pub mod tight;
 pub mod tree;
 pub mod triboxes;

@@ -12,7 +12,7 @@ use core::{ptr, slice};
 use meshsweep_core::internal::bvh::{ErasedScene, ModelPath, MovingModel, RememberedPair};
 use meshsweep_core::internal::hull::ErasedHull;
 use meshsweep_core::{
-    CoherentPair, CoherentQuery, CurveNeighbor, Neighbor, NodePair, ScratchEntry,
+    CoherentPair, CoherentQuery, CurveNeighbor, MovedVertex, Neighbor, NodePair, ScratchEntry,
 };
 
 use crate::error::Error;
@@ -39,6 +39,8 @@ unsafe impl AnyBits for CurveNeighbor {}
 unsafe impl AnyBits for NodePair {}
 // SAFETY: an f32 and a u32.
 unsafe impl AnyBits for ScratchEntry {}
+// SAFETY: three f32 and two u16.
+unsafe impl AnyBits for MovedVertex {}
 
 /// A pointer to elements that are read.
 #[repr(transparent)]
@@ -116,6 +118,19 @@ impl<T: AnyBits> Out<T> {
         match check_slice(self.0, count)? {
             // SAFETY: neither NULL nor misaligned, so by contract `count` elements that overlap
             // nothing else. All bits are values of these types.
+            Some(()) => Ok(unsafe { slice::from_raw_parts_mut(self.0, count) }),
+            None => Ok(&mut []),
+        }
+    }
+}
+
+impl<T: AnyBits> Out<T> {
+    /// As many elements for what is begun with them, by contract as long as it is used.
+    pub fn kept_slice(self, count: usize) -> Result<&'static mut [T], Error> {
+        match check_slice(self.0, count)? {
+            // SAFETY: neither NULL nor misaligned, so by contract `count` elements that overlap
+            // nothing else, and that only the calls with what is begun read and write as long as it
+            // is used. All bits are values of these types.
             Some(()) => Ok(unsafe { slice::from_raw_parts_mut(self.0, count) }),
             None => Ok(&mut []),
         }
@@ -273,6 +288,49 @@ impl<T: Keeps, W: Copy> Out<Kept<T, W>> {
         if unsafe { (&raw const (*begun).tag).read() } != T::TAG {
             // SAFETY: the memory has room.
             unsafe { begin(begun) };
+        }
+        // SAFETY: the tag is only written with a state.
+        Ok(unsafe { &mut (*begun).state })
+    }
+}
+
+/// What a function begins from its arguments, and other functions ask.
+pub trait Begins {
+    /// The first word of its memory in use.
+    const TAG: usize;
+}
+
+impl<T: Begins, W: Copy> Out<Kept<T, W>> {
+    /// Leaves a state in the memory. After an error the memory holds none.
+    pub fn begin(self, state: impl FnOnce() -> Result<T, Error>) -> i32 {
+        let () = Kept::<T, W>::FITS;
+        if let Err(error) = check(self.0) {
+            return error.code();
+        }
+        // SAFETY: neither NULL nor misaligned, so by contract such memory.
+        let begun = unsafe { &raw mut (*self.0).begun }.cast::<Begun<T>>();
+        // SAFETY: the memory has room.
+        unsafe { (&raw mut (*begun).tag).write(0) };
+        match state() {
+            Ok(state) => {
+                // SAFETY: the memory has room. What lies there needs no drop: it owns no memory.
+                unsafe { begun.write(Begun { tag: T::TAG, state }) };
+                0
+            }
+            Err(error) => error.code(),
+        }
+    }
+
+    /// The state that a function began.
+    pub fn begun(&mut self) -> Result<&mut T, Error> {
+        let () = Kept::<T, W>::FITS;
+        check(self.0)?;
+        // SAFETY: neither NULL nor misaligned, so by contract such memory. Its first word is always
+        // some integer.
+        let begun = unsafe { &raw mut (*self.0).begun }.cast::<Begun<T>>();
+        // SAFETY: as above.
+        if unsafe { (&raw const (*begun).tag).read() } != T::TAG {
+            return Err(Error::NotOpened);
         }
         // SAFETY: the tag is only written with a state.
         Ok(unsafe { &mut (*begun).state })

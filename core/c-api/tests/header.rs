@@ -8,6 +8,7 @@ use std::process::Command;
 
 use meshsweep_c::answer::*;
 use meshsweep_c::curve::{CURVE_WORDS, CurveStorage};
+use meshsweep_c::deform::{DEFORM_WORDS, DeformStorage, MOVED_WORDS, MovedStorage};
 use meshsweep_c::error::Error;
 use meshsweep_c::hull::{HULL_WORDS, HullStorage};
 use meshsweep_c::memory::{
@@ -18,11 +19,16 @@ use meshsweep_c::pose::RoundedPoseC;
 use meshsweep_c::question::{BudgetC, FocusC, HintC, KeptPairC, MotionC, PoseC, facing};
 use meshsweep_c::scene::PlacedC;
 use meshsweep_c::sdf::{SDF_WORDS, SdfStorage};
+use meshsweep_c::sweep::{
+    FRAME_SWEEP_WORDS, FrameSweepStorage, MOVED_SWEEP_WORDS, MovedSweepStorage, SWEEP_WORDS,
+    SweepStorage,
+};
 use meshsweep_c::tight::{FINEST, TIGHT_WORDS, Tight};
 use meshsweep_c::tree::{MODEL_WORDS, Model};
 use meshsweep_c::triboxes::{TRIBOXES_WORDS, TriboxesStorage};
 use meshsweep_core::{
-    Bvh, Ended, Facing, Focus, Motion, Pose, ScratchEntry, Side, Solid, Undecided, Verdict,
+    Bvh, Ended, Facing, Focus, Motion, MovedVertex, Pose, ScratchEntry, Side, Solid, Undecided,
+    Verdict,
 };
 
 macro_rules! layouts {
@@ -54,6 +60,12 @@ fn layouts() -> String {
         "msw_triboxes": TriboxesStorage {}
         "msw_curve": CurveStorage {}
         "msw_sdf": SdfStorage {}
+        "msw_deform": DeformStorage {}
+        "msw_moved": MovedStorage {}
+        "msw_moved_vertex": MovedVertex {}
+        "msw_sweep": SweepStorage {}
+        "msw_frame_sweep": FrameSweepStorage {}
+        "msw_moved_sweep": MovedSweepStorage {}
         "msw_coherent": CoherentStorage {}
         "msw_coherent_pair": PairStorage {}
         "msw_scene_entry": SceneEntry {}
@@ -115,6 +127,11 @@ fn constants() -> String {
     holds(&mut text, "MSW_TRIBOXES_WORDS", TRIBOXES_WORDS);
     holds(&mut text, "MSW_CURVE_WORDS", CURVE_WORDS);
     holds(&mut text, "MSW_SDF_WORDS", SDF_WORDS);
+    holds(&mut text, "MSW_DEFORM_WORDS", DEFORM_WORDS);
+    holds(&mut text, "MSW_MOVED_WORDS", MOVED_WORDS);
+    holds(&mut text, "MSW_SWEEP_WORDS", SWEEP_WORDS);
+    holds(&mut text, "MSW_FRAME_SWEEP_WORDS", FRAME_SWEEP_WORDS);
+    holds(&mut text, "MSW_MOVED_SWEEP_WORDS", MOVED_SWEEP_WORDS);
     holds(&mut text, "MSW_SCENE_MODEL_ENTRIES", SCENE_MODEL_ENTRIES);
     for (models, pairs) in [(0, 0), (9, 21), (2, 2)] {
         let entries = scene_entries(models, pairs).expect("few");
@@ -236,6 +253,11 @@ fn the_table_of_storage_is_that_of_rust() {
         ("msw_sdf", SDF_WORDS),
         ("msw_coherent", COHERENT_WORDS),
         ("msw_coherent_pair", PAIR_WORDS),
+        ("msw_deform", DEFORM_WORDS),
+        ("msw_moved", MOVED_WORDS),
+        ("msw_sweep", SWEEP_WORDS),
+        ("msw_frame_sweep", FRAME_SWEEP_WORDS),
+        ("msw_moved_sweep", MOVED_SWEEP_WORDS),
     ];
     for (name, of_64_bits) in words {
         let row = readme.lines().find(|line| line.starts_with(&format!("| `{name}` |")));

@@ -59,8 +59,8 @@ pub enum Contradiction {
     TreeDepth,
     /// A tree node without a parent.
     TreeOrphan,
-    /// A model that is cut or no hull does not deform.
-    DeformsWithoutHull,
+    /// A model that is cut does not deform.
+    DeformsWhileCut,
     /// No triangle stands for a part of the surface.
     UncoveredSurface,
     /// Parts of a hull hierarchy without its base.
@@ -121,7 +121,7 @@ impl core::fmt::Display for Contradiction {
             Self::TreeLeaves => "leaves of the tree",
             Self::TreeDepth => "a tree deeper than 64 nodes",
             Self::TreeOrphan => "a tree node without a parent",
-            Self::DeformsWithoutHull => "a model that is cut or no hull does not deform",
+            Self::DeformsWhileCut => "a model that is cut does not deform",
             Self::UncoveredSurface => "no triangle stands for a part of the surface",
             Self::HullWithoutBase => "parts of a hull hierarchy without its base",
             Self::HullVertices => "vertices are not base vertices and two for each split",

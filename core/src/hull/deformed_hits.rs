@@ -1,12 +1,12 @@
 //! Segments against a mesh that deforms: at a key frame, or moved freely.
 
 use super::frame_hull::FrameHull;
-use super::geometry::Geometry;
 use super::moved_hull::MovedHull;
-use super::segment_hits;
+use super::segment_hits::segment_questions;
 use crate::query::{AllHits, Budget, FirstHit, QueryError, ScratchEntry, TriangleHit};
 
-impl FrameHull<'_> {
+segment_questions! {
+    FrameHull<'_>, |hull| hull;
     /// First common point of the closed segment `a b` (input units) and the surface at this frame.
     ///
     /// All as for [`Hull::first_hit`](crate::Hull::first_hit), of the mesh whose vertices are
@@ -16,37 +16,18 @@ impl FrameHull<'_> {
     ///
     /// # Errors
     /// Those of [`Hull::first_hit`](crate::Hull::first_hit).
-    #[inline(never)]
-    pub fn first_hit(
-        &self,
-        a: [f32; 3],
-        b: [f32; 3],
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<FirstHit, QueryError> {
-        segment_hits::first_hit(self, [a, b], &budget, scratch)
-    }
-
+    first_hit;
     /// All common points of the closed segment `a b` (input units) and the surface at this frame,
     /// by rising parameter, into `hits`. As [`Hull::all_hits`](crate::Hull::all_hits), with what
     /// [`first_hit`](Self::first_hit) says.
     ///
     /// # Errors
     /// Those of [`Hull::first_hit`](crate::Hull::first_hit).
-    #[inline(never)]
-    pub fn all_hits(
-        &self,
-        a: [f32; 3],
-        b: [f32; 3],
-        hits: &mut [TriangleHit],
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<AllHits, QueryError> {
-        segment_hits::all_hits(self, [a, b], hits, &budget, scratch)
-    }
+    all_hits;
 }
 
-impl MovedHull<'_, '_> {
+segment_questions! {
+    MovedHull<'_, '_>, |hull| &hull;
     /// First common point of the closed segment `a b` (input units) and the moved surface.
     ///
     /// All as for [`Hull::first_hit`](crate::Hull::first_hit), of the mesh whose vertices are where
@@ -55,34 +36,12 @@ impl MovedHull<'_, '_> {
     /// # Errors
     /// Those of [`Hull::first_hit`](crate::Hull::first_hit); [`QueryError::NoPose`] after an update
     /// that failed.
-    #[inline(never)]
-    pub fn first_hit(
-        &self,
-        a: [f32; 3],
-        b: [f32; 3],
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<FirstHit, QueryError> {
-        self.check()?;
-        segment_hits::first_hit(&self, [a, b], &budget, scratch)
-    }
-
+    first_hit;
     /// All common points of the closed segment `a b` (input units) and the moved surface, by rising
     /// parameter, into `hits`. As [`Hull::all_hits`](crate::Hull::all_hits), of the mesh whose
     /// vertices are where the last update put them.
     ///
     /// # Errors
     /// Those of [`first_hit`](Self::first_hit).
-    #[inline(never)]
-    pub fn all_hits(
-        &self,
-        a: [f32; 3],
-        b: [f32; 3],
-        hits: &mut [TriangleHit],
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<AllHits, QueryError> {
-        self.check()?;
-        segment_hits::all_hits(&self, [a, b], hits, &budget, scratch)
-    }
+    all_hits;
 }

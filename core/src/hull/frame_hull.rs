@@ -8,7 +8,7 @@
 
 use super::closest_point;
 use super::format::{DeformableHull, Hull, Key, VertIdx};
-use super::geometry::Geometry;
+use super::geometry::{self, Geometry};
 use crate::geom::{Aabb, RealVector};
 use crate::num::tolerance::{
     DEFORM_DIAMETER, KEY_RADIUS, KEY_VERTEX, LENGTH_UP, SUMMED, U32, VERTEX_UNDERFLOW,
@@ -176,6 +176,11 @@ impl<'a> FrameHull<'a> {
         closest_point::closest_point(self, point, [relative, absolute], steps, scratch)
     }
 
+    /// Coordinates of a vertex of any level at this frame, input units, rounded to f32.
+    pub fn vertex(&self, vertex: VertIdx) -> Option<[f32; 3]> {
+        geometry::vertex(self, vertex)
+    }
+
     #[inline(always)]
     fn position(&self, vertex: VertIdx) -> Option<Vec3> {
         let hull = self.model.tables();
@@ -232,17 +237,21 @@ impl<'a> Geometry<'a> for FrameHull<'a> {
         is_surface: bool,
     ) -> Option<([Vec3; 3], f32)> {
         let corners = [self.position(a)?, self.position(b)?, self.position(c)?];
-        Some((corners, if is_surface { 0.0 } else { self.radius(number)? }))
+        // A triangle that closes a hole is none of the surface, and keeps its infinite radius.
+        let has_no_radius = is_surface && self.tables().encloses();
+        Some((corners, if has_no_radius { 0.0 } else { self.radius(number)? }))
     }
 
     fn place(&self, vertex: VertIdx) -> Option<Vec3> {
         self.position(vertex)
     }
 
-    /// The swept triangle of a group is not known in other frames: it holds the whole model.
+    /// The swept triangle of a group is not known in other frames: it holds the whole model, if it
+    /// stands for a part of it.
     fn group(&self, index: u32) -> Option<([Vec3; 3], f32)> {
-        let ([a, b, c], _) = self.tables().base_group(index)?;
-        Some(([self.position(a)?, self.position(b)?, self.position(c)?], DEFORM_DIAMETER))
+        let ([a, b, c], radius) = self.tables().base_group(index)?;
+        let corners = [self.position(a)?, self.position(b)?, self.position(c)?];
+        Some((corners, greater(radius, DEFORM_DIAMETER)))
     }
 
     fn vertex_box(&self) -> Aabb {

@@ -55,6 +55,12 @@ pub(super) fn frame<'a>(geometry: &impl Geometry<'a>) -> Frame {
     Frame::of(geometry.tables().header()).with_surface_error(geometry.surface_error())
 }
 
+/// Coordinates of a vertex of any level, input units, rounded to f32.
+pub(super) fn vertex<'a>(geometry: &impl Geometry<'a>, vertex: VertIdx) -> Option<[f32; 3]> {
+    let place = geometry.place(vertex)?.as_dvec3() * geometry.tables().scale();
+    Some(place.to_array().map(|x| x as f32))
+}
+
 impl<'a, G: Geometry<'a>> Geometry<'a> for &G {
     #[inline(always)]
     fn tables(&self) -> &Hull<'a> {

@@ -7,6 +7,7 @@
 //! | `refined_hull` | the hull refined where a scene needs it: what may be performed and undone |
 //! | `focus` | where a scene needs it |
 //! | `refine` | how it follows a focus |
+//! | `swept_mesh` | the mesh that a sweep ends with |
 //! | `hull_faces` | the triangles of hulls |
 //! | `geometry` | where a sweep's triangles lie: at rest, at a key frame, or moved |
 //! | `front` | the front of the sweeping process: triangles that stand for the surface |
@@ -43,6 +44,7 @@ mod refined_hull;
 mod segment_hits;
 mod shared_corner;
 mod split_set;
+mod swept_mesh;
 
 pub use focus::Focus;
 pub use format::{DeformableHull, Hull, HullLevel};
@@ -54,3 +56,4 @@ pub use moved_hull::{MovedHull, MovedVertex};
 pub use outer_hits::{OuterHits, OuterSearch};
 pub use refine::{Refinement, SplitChange};
 pub use refined_hull::{ErasedHull, RefinedHull};
+pub use swept_mesh::SweptMesh;

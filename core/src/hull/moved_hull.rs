@@ -14,7 +14,7 @@
 
 use super::closest_point;
 use super::format::{DeformableHull, Hull, SplitIdx, VertIdx};
-use super::geometry::Geometry;
+use super::geometry::{self, Geometry};
 use crate::geom::{Aabb, RealVector};
 use crate::num::tolerance::{
     DEFORM_DIAMETER, DEFORM_DOMAIN, DISPLACEMENT, LENGTH_UP, U32, VERTEX_UNDERFLOW,
@@ -103,10 +103,12 @@ impl<'a> DeformableHull<'a> {
     }
 }
 
-impl MovedHull<'_, '_> {
+impl<'a> MovedHull<'a, '_> {
     /// Moves the vertices of the mesh. `place` gets the number of a vertex in the input file, from
     /// 0, and returns its place in input units. Numbers come in the order of the blob. Vertices
-    /// that were welded move as the first of them, and `place` is not asked for the others.
+    /// that were welded move as the first of them, and `place` is not asked for the others. Of a
+    /// blob built `--for sweep,deform` it is asked more than once for a vertex that was copied, and
+    /// must answer alike.
     ///
     /// A rigid motion of the whole mesh makes bounds loose: leave it out here, and carry the points
     /// of questions into the part's frame.
@@ -157,6 +159,11 @@ impl MovedHull<'_, '_> {
         place: impl FnMut(u32) -> [f32; 3],
     ) -> Result<(), QueryError> {
         self.follow(slack, place).map(|_| ())
+    }
+
+    /// The hull hierarchy whose vertices move.
+    pub fn deformable(&self) -> &DeformableHull<'a> {
+        &self.model
     }
 
     /// Motion of the vertices that the bounds of coarse levels allow for, input units, rounded up:
@@ -291,6 +298,12 @@ impl MovedHull<'_, '_> {
         Some(())
     }
 
+    /// Coordinates of a vertex of any level as the last update left it, input units, rounded to
+    /// f32.
+    pub fn vertex(&self, vertex: VertIdx) -> Option<[f32; 3]> {
+        geometry::vertex(self, vertex)
+    }
+
     fn record(&self, vertex: VertIdx) -> Option<&MovedVertex> {
         self.vertices.get(vertex.usize())
     }
@@ -392,14 +405,18 @@ impl<'a> Geometry<'a> for MovedHull<'a, '_> {
         let records = self.records(corners)?;
         let at = records.map(|record| record.position());
         if is_surface {
-            return Some((at, 0.0));
+            let closes_hole = !self.tables().has_part(number);
+            return Some((at, if closes_hole { f32::INFINITY } else { 0.0 }));
         }
         let [r, s, t] = records.map(|record| Real(record.farthest()));
         let farthest = greater(r, greater(s, t));
         let [r, s, t] = records.map(|record| Real(record.spread()));
         let spread = Real(self.tables().radius(number)?) + greater(r, greater(s, t));
         if spread >= farthest {
-            return Some((at, self.widened(farthest)));
+            // A triangle without a part of the surface keeps its infinite radius.
+            let radius =
+                if self.tables().has_part(number) { farthest } else { Real(f32::INFINITY) };
+            return Some((at, self.widened(radius)));
         }
         let [a, b, c] = at.map(RealVector::from);
         let [rest_a, rest_b, rest_c] = self.tables().positions(corners)?.map(RealVector::from);
@@ -416,10 +433,12 @@ impl<'a> Geometry<'a> for MovedHull<'a, '_> {
         Some(self.record(vertex)?.position())
     }
 
-    /// The swept triangle of a group is not known after a motion: it holds the whole model.
+    /// The swept triangle of a group is not known after a motion: it holds the whole model, if it
+    /// stands for a part of it.
     fn group(&self, index: u32) -> Option<([Vec3; 3], f32)> {
-        let (corners, _) = self.tables().base_group(index)?;
-        Some((self.records(corners)?.map(|record| record.position()), DEFORM_DIAMETER))
+        let (corners, radius) = self.tables().base_group(index)?;
+        let corners = self.records(corners)?.map(|record| record.position());
+        Some((corners, greater(radius, DEFORM_DIAMETER)))
     }
 
     fn vertex_box(&self) -> Aabb {

@@ -11,7 +11,7 @@
 //! falls again when there is room.
 
 use super::focus::{Focus, FocusQuery};
-use super::refined_hull::{ErasedHull, Refined, RefinedHull, erased, live_faces};
+use super::refined_hull::{ErasedHull, Refined, RefinedHull, erased};
 use crate::hull::format::{Hull, SplitIdx, VertIdx};
 use crate::num::up_to_f32;
 use crate::query::QueryError;
@@ -178,13 +178,8 @@ fn update(
         Update { state, hull, query, changes, stored: 0, dropped: 0, performed: 0, undone: 0 };
     let left = update.run().ok_or(QueryError::Unchecked)?;
     let Update { stored, dropped, performed, undone, .. } = update;
-    let splits = state.splits.len() as u32;
     Ok(Refinement {
-        faces: if hull.encloses() {
-            hull.header().base_triangles.saturating_add(splits.saturating_mul(2))
-        } else {
-            live_faces(*hull, Some(&state.splits)).fold(0, |count, _| count.saturating_add(1))
-        },
+        faces: state.face_count(hull),
         performed,
         undone,
         error_left: up_to_f32(f64::from(left) * hull.scale()),

@@ -16,6 +16,7 @@ use core::marker::PhantomData;
 /// A hull that is refined only where a scene needs it, in memory for `SPLITS` performed splits.
 ///
 /// [`update`](Self::update) refines and coarsens it around a [`Focus`](crate::Focus).
+/// [`sweep_to`](Self::sweep_to) makes the mesh that a sweep ends with.
 /// [`Hull::outer_hits`] refines it along a segment. Every state is a closed mesh that encloses the
 /// stored surface, under the conditions that [`Hull::outer_hits`] names. Where the hierarchy does
 /// not [enclose](Hull::encloses) it, every state is a mesh near it, open where the surface is.
@@ -108,10 +109,7 @@ impl<'t> ErasedHull<'t> {
 }
 
 /// Triangles of a hull after the splits of a set, or of the base hull.
-pub(crate) fn live_faces(
-    hull: Hull<'_>,
-    splits: Option<&SplitSet>,
-) -> impl Iterator<Item = HullFace> {
+fn live_faces(hull: Hull<'_>, splits: Option<&SplitSet>) -> impl Iterator<Item = HullFace> {
     let is_live = move |&HullFace { corners, .. }: &HullFace| {
         splits.is_none_or(|splits| {
             split_of_face(&hull, corners).is_none_or(|split| !splits.contains(split))
@@ -157,9 +155,18 @@ fn address(hull: &Hull<'_>) -> usize {
 }
 
 impl Refined {
-    fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.splits.clear();
         self.floor = 0.0;
+    }
+
+    /// Faces of the hull that stand for a part of the surface.
+    pub(crate) fn face_count(&self, hull: &Hull<'_>) -> u32 {
+        if hull.encloses() {
+            let splits = self.splits.len() as u32;
+            return hull.header().base_triangles.saturating_add(splits.saturating_mul(2));
+        }
+        live_faces(*hull, Some(&self.splits)).fold(0, |count, _| count.saturating_add(1))
     }
 
     /// Starts from the base hull, if the hull is another than before.

@@ -15,7 +15,49 @@ use crate::query::{
 };
 use glam::DVec3;
 
-impl Hull<'_> {
+/// `first_hit` and `all_hits` of a kind of hull, and what of it they ask.
+macro_rules! segment_questions {
+    (
+        $hull:ty, |$this:ident| $model:expr;
+        $(#[$first:meta])* first_hit;
+        $(#[$all:meta])* all_hits;
+    ) => {
+        impl $hull {
+            $(#[$first])*
+            #[inline(never)]
+            pub fn first_hit(
+                &self,
+                a: [f32; 3],
+                b: [f32; 3],
+                budget: Budget,
+                scratch: &mut [ScratchEntry],
+            ) -> Result<FirstHit, QueryError> {
+                let $this = self;
+                $crate::hull::geometry::Geometry::check($this)?;
+                $crate::hull::segment_hits::first_hit($model, [a, b], &budget, scratch)
+            }
+
+            $(#[$all])*
+            #[inline(never)]
+            pub fn all_hits(
+                &self,
+                a: [f32; 3],
+                b: [f32; 3],
+                hits: &mut [TriangleHit],
+                budget: Budget,
+                scratch: &mut [ScratchEntry],
+            ) -> Result<AllHits, QueryError> {
+                let $this = self;
+                $crate::hull::geometry::Geometry::check($this)?;
+                $crate::hull::segment_hits::all_hits($model, [a, b], hits, &budget, scratch)
+            }
+        }
+    };
+}
+pub(super) use segment_questions;
+
+segment_questions! {
+    Hull<'_>, |hull| hull;
     /// First common point of the closed segment `a b` (input units) and the surface, both facings.
     ///
     /// If [`FirstHit::is_clear`], that is a proof. A segment that passes within some 1e-15 of the
@@ -41,17 +83,7 @@ impl Hull<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`], [`QueryError::OutOfDomain`], [`QueryError::NoScratch`],
     /// [`QueryError::Tolerance`].
-    #[inline(never)]
-    pub fn first_hit(
-        &self,
-        a: [f32; 3],
-        b: [f32; 3],
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<FirstHit, QueryError> {
-        first_hit(self, [a, b], &budget, scratch)
-    }
-
+    first_hit;
     /// All common points of the closed segment `a b` (input units) and the surface, by rising
     /// parameter, into `hits`.
     ///
@@ -74,17 +106,7 @@ impl Hull<'_> {
     ///
     /// # Errors
     /// Those of [`first_hit`](Hull::first_hit).
-    #[inline(never)]
-    pub fn all_hits(
-        &self,
-        a: [f32; 3],
-        b: [f32; 3],
-        hits: &mut [TriangleHit],
-        budget: Budget,
-        scratch: &mut [ScratchEntry],
-    ) -> Result<AllHits, QueryError> {
-        all_hits(self, [a, b], hits, &budget, scratch)
-    }
+    all_hits;
 }
 
 /// [`Hull::first_hit`], of a hull at rest or deformed.

@@ -66,6 +66,25 @@ impl<'t> Replayed<'t> {
             && !self.performed.range(split + 1..).any(|&s| self.requires(s).contains(&split))
     }
 
+    /// Performs a split that is not performed, after those that it requires.
+    ///
+    /// # Panics
+    /// If a split does not fit.
+    pub fn perform(&mut self, split: u32) {
+        let mut waiting = vec![split];
+        while let Some(&split) = waiting.last() {
+            let missing: Vec<u32> =
+                self.requires(split).difference(&self.performed).copied().collect();
+            if missing.is_empty() {
+                waiting.pop();
+                if !self.performed.contains(&split) {
+                    self.turn(split, true);
+                }
+            }
+            waiting.extend(missing);
+        }
+    }
+
     /// Replaces the coarse triangles of a split by the fine ones, or the reverse.
     ///
     /// # Panics

@@ -20,11 +20,19 @@ use std::ops::Range;
 /// Frames of a motion.
 const FRAMES: usize = 1000;
 
-pub fn build((positions, triangles): &Triangles, frames: &[Vec<[f32; 3]>]) -> Vec<u8> {
+pub fn build(mesh: &Triangles, frames: &[Vec<[f32; 3]>]) -> Vec<u8> {
+    build_levels(mesh, frames, |frames| Levels::Deform(frames))
+}
+
+pub fn build_levels(
+    (positions, triangles): &Triangles,
+    frames: &[Vec<[f32; 3]>],
+    levels: fn(&[KeyFrame]) -> Levels<'_>,
+) -> Vec<u8> {
     let mesh = Mesh::new(positions.clone(), triangles.clone());
     let key = |positions: &Vec<[f32; 3]>| KeyFrame { positions: positions.clone(), rounding: 0.0 };
     let frames: Vec<KeyFrame> = frames.iter().map(key).collect();
-    let options = options(40).with_levels(Levels::Deform(&frames));
+    let options = options(40).with_levels(levels(&frames));
     hull::build(mesh.as_input(), &options, Watch::NONE).expect("it builds").0.to_bytes()
 }
 
@@ -57,7 +65,7 @@ pub fn wide(positions: &[[f32; 3]]) -> Vec<DVec3> {
 }
 
 /// Fails unless the interval contains the distance. `size`: that of the model and the question.
-fn holds(answer: &ClosestPoint, p: [f32; 3], positions: &[DVec3], triangles: &[[u32; 3]]) {
+pub fn holds(answer: &ClosestPoint, p: [f32; 3], positions: &[DVec3], triangles: &[[u32; 3]]) {
     let size = positions.iter().fold(0f64, |most, p| most.max(p.abs().max_element()));
     let slack = 1e-8 * 1e-5 * (size + f64::from(p.iter().fold(0f32, |m, x| m.max(x.abs()))));
     let truth = distance_to_wide_mesh(p, positions, triangles);
@@ -344,7 +352,7 @@ fn the_checker_proves_the_radii_of_keys() {
 }
 
 /// Where the bytes of a section lie.
-fn section(bytes: &[u8], kind: SectionKind) -> Range<usize> {
+pub fn section(bytes: &[u8], kind: SectionKind) -> Range<usize> {
     let entry = entry(bytes, kind as u32);
     let start = entry.offset as usize;
     start..start + entry.bytes as usize

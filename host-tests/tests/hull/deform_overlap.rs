@@ -11,7 +11,7 @@ use meshsweep_host_tests::oracle::moved::{Place, meeting_pairs};
 use meshsweep_host_tests::scene::Scene;
 
 /// With coordinates that are multiples of 2^-14, so that those between two frames are exact too.
-fn coarse(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
+pub fn coarse(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
     positions.iter().map(|p| p.map(|x| (x * 16384.0).round() / 16384.0)).collect()
 }
 
@@ -24,7 +24,7 @@ fn places(
 }
 
 /// Poses of `other` beside a mesh whose vertices are at `positions`, each answered by `ask`.
-fn check(
+pub fn check(
     rest: &Scene,
     other: &Scene,
     seed: u64,

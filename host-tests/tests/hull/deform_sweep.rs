@@ -15,7 +15,7 @@ use meshsweep_host_tests::oracle::{contacts, gap_to_triangle, wide_distance_sq};
 const FRAMES: usize = 1000;
 
 /// The distance of each triangle.
-fn distances(p: [f32; 3], positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
+pub fn distances(p: [f32; 3], positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
     let corner = |&vertex: &u32| positions[vertex as usize].to_array();
     let distance = |[a, b, c]: &[u32; 3]| {
         wide_distance_sq(p.map(f64::from), [corner(a), corner(b), corner(c)]).sqrt()
@@ -31,7 +31,7 @@ fn holds(interval: Interval, truth: f64, scale: f64) {
 }
 
 /// Asks a sweep for the closest point, in small steps or at once, and for lists of triangles.
-fn ask<'a, G: Geometry<'a>>(
+pub fn ask<'a, G: Geometry<'a>>(
     sweep: &mut Sweep<'_, G>,
     frame: usize,
     distances: &[f64],
@@ -60,7 +60,12 @@ fn ask<'a, G: Geometry<'a>>(
 }
 
 /// The nearest triangles, one after another, until all within a distance have come.
-fn list<'a, G: Geometry<'a>>(sweep: &mut Sweep<'_, G>, distances: &[f64], within: f64, scale: f64) {
+pub fn list<'a, G: Geometry<'a>>(
+    sweep: &mut Sweep<'_, G>,
+    distances: &[f64],
+    within: f64,
+    scale: f64,
+) {
     let mut order: Vec<f64> = distances.to_vec();
     order.sort_by(f64::total_cmp);
     let mut is_given = vec![false; distances.len()];
@@ -84,7 +89,7 @@ fn meshes() -> [Triangles; 2] {
     [torus(0.8, 0.3, 24, 12), rough_sphere(2, 0.3, 5)]
 }
 
-fn entries(count: usize) -> Vec<ScratchEntry> {
+pub fn entries(count: usize) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; count]
 }
 

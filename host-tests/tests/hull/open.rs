@@ -28,7 +28,7 @@ use std::sync::LazyLock;
 const FLAGS: (usize, u32) = (24, 2);
 
 /// The triangles whose middle passes a test.
-fn kept((positions, triangles): &Triangles, keep: impl Fn([f32; 3]) -> bool) -> Triangles {
+pub fn kept((positions, triangles): &Triangles, keep: impl Fn([f32; 3]) -> bool) -> Triangles {
     let middle = |t: &[u32; 3]| -> [f32; 3] {
         std::array::from_fn(|k| t.iter().map(|&v| positions[v as usize][k]).sum::<f32>() / 3.0)
     };
@@ -38,7 +38,7 @@ fn kept((positions, triangles): &Triangles, keep: impl Fn([f32; 3]) -> bool) -> 
 }
 
 /// A square of n × n squares, without those that a test leaves out.
-fn plate(n: u32, is_hole: impl Fn(u32, u32) -> bool) -> Triangles {
+pub fn plate(n: u32, is_hole: impl Fn(u32, u32) -> bool) -> Triangles {
     let at = |i: u32, j: u32| i * (n + 1) + j;
     let positions = (0..=n).flat_map(|i| (0..=n).map(move |j| [i as f32, j as f32, 0.0])).collect();
     let squares = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
@@ -51,7 +51,7 @@ fn plate(n: u32, is_hole: impl Fn(u32, u32) -> bool) -> Triangles {
 }
 
 /// A strip of triangles with a twist: one-sided with an odd number.
-fn strip(count: u32) -> Triangles {
+pub fn strip(count: u32) -> Triangles {
     let place = |i: u32| {
         let angle = i as f32 / count as f32 * std::f32::consts::TAU;
         let (r, z) = if i.is_multiple_of(2) { (2.0, -0.3) } else { (2.3, 0.3) };
@@ -66,7 +66,7 @@ fn strip(count: u32) -> Triangles {
 }
 
 /// Two holes that touch at a vertex, and a wall on an edge that has two triangles already.
-fn touching_holes_and_a_wall() -> Triangles {
+pub fn touching_holes_and_a_wall() -> Triangles {
     let (mut positions, mut triangles) = plate(6, |i, j| i == j && (2..4).contains(&i));
     positions.extend([[5.0, 1.0, 2.0], [5.0, 2.0, 2.0]]);
     let [low, high, a, b] = [36, 37, 49, 50];

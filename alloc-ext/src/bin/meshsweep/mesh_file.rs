@@ -75,15 +75,17 @@ pub fn load_solid(file: &Path, bits: VertexBits, args: &ReadArgs) -> Result<Load
     Ok(loaded)
 }
 
-/// Repairs a solid that deforms, and applies its repairs to its key frames.
+/// Repairs a mesh that deforms, and applies its repairs to its key frames. With `is_solid` it has
+/// to be closed.
 pub fn deformable(
     source: &Source,
     frames: &[PathBuf],
     unit: Option<Unit>,
+    is_solid: bool,
 ) -> Result<(Loaded, Vec<KeyFrame>), Failure> {
     let frames = frames.iter().map(|frame| Source::of_file(frame, unit));
     let file = &source.raw().file;
-    source.deformable(frames).map_err(|error| solid_wanted(file, error))
+    source.deformable(frames, is_solid).map_err(|error| solid_wanted(file, error))
 }
 
 /// Without the remedy of another blob, where none is built.

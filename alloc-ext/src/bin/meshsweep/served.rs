@@ -12,11 +12,12 @@ use std::path::Path;
 type Serves = fn(&Blob<'_>) -> bool;
 
 /// The questions, by the names of the commands.
-const QUESTIONS: [(&str, Serves); 22] = [
+const QUESTIONS: [(&str, Serves); 23] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
     ("closest --frame", |blob| blob.deformable_hull().is_ok()),
     ("within", |blob| has_distances(blob) || blob.curve().is_ok() || blob.sdf().is_ok()),
     ("nearest", |blob| knows_triangles(blob) || blob.curve().is_ok()),
+    ("nearest --frame", |blob| blob.deformable_hull().is_ok()),
     ("field", knows_triangles),
     ("signed", |blob| {
         tree(blob, BuildFor::Closest).is_some_and(|tree| has_sides(&tree))

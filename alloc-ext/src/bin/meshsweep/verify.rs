@@ -111,8 +111,9 @@ fn prove(args: &VerifyArgs, bytes: &[u8], blob: &Blob<'_>) -> Result<Proofs, Fai
     }
     let file = mesh_file::read(&args.mesh, &args.read)?;
     let raw = file.raw();
-    if blob.deformable_hull().is_ok() {
-        let (loaded, keys) = mesh_file::deformable(&file, &args.frames, args.read.unit)?;
+    if let Ok(hull) = blob.deformable_hull() {
+        let is_solid = hull.rest().encloses();
+        let (loaded, keys) = mesh_file::deformable(&file, &args.frames, args.read.unit, is_solid)?;
         return Ok(of_mesh(args, bytes, blob, raw, &loaded, &keys));
     }
     if !args.frames.is_empty() {

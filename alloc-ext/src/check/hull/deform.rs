@@ -65,6 +65,12 @@ pub(super) fn keys(
     if frames.is_empty() {
         return Ok(());
     }
+    for (index, has_part) in forest.has_part.iter().enumerate() {
+        let denies = |key: &Key<'_>| small_radius(key.radii[index]).is_finite() != *has_part;
+        if !blob.encloses && frames.iter().any(denies) {
+            return Err(format!("triangle {index}: its radius at a key denies its part"));
+        }
+    }
     let rest = blob.vertices.iter().map(|&p| DVec3::from(p)).collect();
     let mut keys = vec![Key { vertices: rest, error: 0.0, radii: &blob.radii }];
     keys.extend(frames);

@@ -57,17 +57,29 @@ pub(super) fn wires(blob: &Blob, given: &Given<'_>) -> Result<usize, String> {
     Ok(undecided)
 }
 
-/// Every vertex of the finest surface has the number of the mesh's vertex in the input file.
+/// Every vertex of the finest surface has the number of the mesh's vertex in the input file. Of one
+/// that only closes holes the number is that of some vertex of the mesh at its place.
 pub(super) fn numbers(
     bytes: &[u8],
     blob: &Blob,
-    mesh: &Mesh,
+    given: &Given<'_>,
     (places, _): &Places,
 ) -> Result<usize, String> {
     let numbers = deform::numbers(bytes, blob)?;
+    let mesh = given.mesh;
+    let of_number: HashMap<u32, u32> = mesh.vertex_source.iter().copied().zip(0..).collect();
+    let mut exact = 0;
+    let mut is_there = |label: u32, number: u32| {
+        let Some(&vertex) = of_number.get(&number) else { return false };
+        let here = blob.vertices[label as usize];
+        is_within(here, given.place(vertex), [blob.surface_error, 0.0, 0.0], &mut exact)
+    };
     let labels = (0..).zip(&blob.splits_with).filter(|(_, with)| with.is_none());
     for ((label, _), &number) in labels.zip(&numbers) {
         let wanted = places.get(&label).map(|&v| mesh.vertex_source[v as usize]);
+        if wanted.is_none() && !blob.encloses && is_there(label, number) {
+            continue;
+        }
         if wanted != Some(number) {
             let wanted = wanted.map_or("none".to_owned(), |number| number.to_string());
             return Err(format!("vertex {label} has the number {number} and not {wanted}"));

@@ -84,8 +84,8 @@ impl<'a> DeformableHull<'a> {
     }
 
     fn check(&self) -> Result<(), OpenError> {
-        if self.hull.is_cut() || !self.hull.encloses() {
-            return Err(OpenError::Counts { what: Contradiction::DeformsWithoutHull });
+        if self.hull.is_cut() {
+            return Err(OpenError::Counts { what: Contradiction::DeformsWhileCut });
         }
         for rank in 0..surface_vertices(&self.hull) {
             if self.number(rank).is_none_or(|number| number >= self.input_vertices()) {

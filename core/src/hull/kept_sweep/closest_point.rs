@@ -77,7 +77,8 @@ impl<'a, G: Geometry<'a>> Sweep<'_, G> {
                 evaluated = enqueuer.nearest.work(Work::NONE).exact.saturating_add(evaluated);
                 continue;
             }
-            let ended = if lost < enqueuer.nearest.upper() { Ended::Scratch } else { ended };
+            let ended =
+                if lost < enqueuer.nearest.upper() { self.cut_short(budget) } else { ended };
             enqueuer.nearest.limit_lower(lost);
             let mut work = enqueuer.nearest.work(self.front.work);
             work.exact = work.exact.saturating_add(evaluated);
@@ -85,6 +86,15 @@ impl<'a, G: Geometry<'a>> Sweep<'_, G> {
             let tables = self.front.model.tables();
             return Some(enqueuer.nearest.answer(tables, &self.frame, work, ended));
         }
+    }
+
+    /// How a search ends that lost triangles which may be the nearest, and does not begin anew. If
+    /// all of them were pruned, before a motion, the next call begins anew.
+    #[cold]
+    fn cut_short(&self, budget: &Budget) -> Ended {
+        let has_dropped = self.front.queue.dropped() < f32::INFINITY;
+        let is_spent = self.front.work.opened >= budget.steps;
+        if is_spent && !has_dropped { Ended::Steps } else { Ended::Scratch }
     }
 
     /// Refines until no triangle that waits may be nearer than the best one.

@@ -121,6 +121,9 @@ pub struct NearestArgs {
     /// Triangles for each point, nearest first
     #[arg(short = 'n', long, value_name = "N", value_parser = whole::<1, { 1 << 20 }>)]
     pub count: u32,
+    /// Key frame of a blob built --for deform, from 0
+    #[arg(long, value_name = "FRAME", value_parser = frame)]
+    pub frame: Option<f32>,
     #[command(flatten)]
     pub search: SearchArgs,
 }

@@ -1,6 +1,6 @@
 //! Arguments of the command that refines a hull.
 
-use super::values::{degrees, direction, point, positive, tolerance, two_points};
+use super::values::{degrees, direction, frame, point, positive, tolerance, two_points};
 use clap::Args;
 use meshsweep_core::Focus;
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ pub struct RefineArgs {
         long,
         value_name = "DISTANCE",
         value_parser = tolerance,
-        required_unless_present = "eye"
+        required_unless_present_any = ["eye", "sweep"]
     )]
     pub error: Option<f32>,
     /// Focus: a point, x,y,z
@@ -57,6 +57,23 @@ pub struct RefineArgs {
     /// Direction in which the eye looks: x,y,z
     #[arg(long, value_name = "DIRECTION", value_parser = direction, requires = "eye")]
     pub look: Option<[f32; 3]>,
+    /// The mesh that a sweep about x,y,z ends with: fine at the closest point alone
+    #[arg(
+        long,
+        value_name = "POINT",
+        value_parser = point,
+        conflicts_with_all = ["error", "near", "corners", "segment", "within", "eye"]
+    )]
+    pub sweep: Option<[f32; 3]>,
+    /// With --sweep: key frame of a blob built --for deform, from 0
+    #[arg(
+        long,
+        value_name = "FRAME",
+        value_parser = frame,
+        requires = "sweep",
+        conflicts_with_all = ["error", "near", "corners", "segment", "eye"]
+    )]
+    pub frame: Option<f32>,
     /// Angle of the cone that the eye sees, in degrees
     #[arg(long, value_name = "DEGREES", value_parser = degrees, requires = "eye")]
     pub fov: Option<f64>,
