@@ -40,7 +40,7 @@ fn fields_of_the_builder_are_proved() {
     ] {
         let mesh = mesh(of);
         for kind in SdfKind::ALL {
-            let bytes = built(&mesh, kind, 1 << 10);
+            let bytes = built(&mesh, kind, 400);
             assert_eq!(outcome(&bytes, &mesh), Outcome::Proved, "{name} {kind:?}");
         }
     }
@@ -51,17 +51,17 @@ fn an_open_mesh_is_proved_without_sides_alone() {
     let (positions, mut triangles) = icosphere(2);
     triangles.truncate(200);
     let open = Mesh::new(positions.clone(), triangles);
-    assert_eq!(outcome(&built(&open, SdfKind::Surface, 1 << 10), &open), Outcome::Proved);
+    assert_eq!(outcome(&built(&open, SdfKind::Surface, 512), &open), Outcome::Proved);
     // The field of the whole ball tells sides, which the part has not.
     let whole = mesh(icosphere(2));
-    assert_eq!(outcome(&built(&whole, SdfKind::Signed, 1 << 10), &open), Outcome::Failed);
+    assert_eq!(outcome(&built(&whole, SdfKind::Signed, 512), &open), Outcome::Failed);
 }
 
 #[test]
 fn errors_that_are_smaller_and_codes_that_are_others_are_not_proved() {
     let mesh = mesh(bracket());
     for kind in SdfKind::ALL {
-        let bytes = built(&mesh, kind, 1 << 10);
+        let bytes = built(&mesh, kind, 512);
         let changed = |edit: &dyn Fn(&mut [u8])| {
             let mut found = None;
             let told: Result<(), ()> = edited(bytes.clone(), SectionKind::Sdf, edit, |bytes| {
