@@ -16,6 +16,13 @@
 //! *The side.* A point outside the box of the hull's tree is outside if it is farther from the hull
 //! than storing moved it. Elsewhere [`Bvh::signed_distance`](crate::Bvh::signed_distance) decides.
 //! An undecided side counts as inside.
+//!
+//! *Lost* (*historical*, Cortex-M4F, 1,000 places each). A table beside the hull: a ball for each
+//! leaf and a plane in bytes for each face, which leave faces out in integers. Of 20 faces it took
+//! 20 to 60 % off (bracket, far: 5,148 to 4,044 instructions; within a fiftieth of the diagonal:
+//! 2,176 to 1,090). The dearest places got a quarter to a half dearer, because the tree decides
+//! there after the table; 200 faces got 12 % dearer; and a quarter of the hull's bytes came on top.
+//! A distance field answers in 200 instructions.
 
 mod closest_point;
 pub mod format;
