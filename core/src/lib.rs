@@ -42,6 +42,7 @@
 //! | how far is a mesh, by a tight hull of few faces; is it within a distance | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart, or farther than a distance; bounds without triangles | [`Triboxes::separation`], [`Triboxes::within_of`], [`Triboxes::distance`], [`Triboxes::clip`] |
 //! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`], [`Curve::nearest`], [`Curve::all_within`] |
+//! | the same of a point that moves little, or in several calls | [`Curve::sweep`] |
 //! | inside or outside of a fence of inclusion and exclusion zones, and how far from its line | [`Curve::signed_distance`] |
 //! | the faces of a nested hull | [`Hull::faces`] |
 //! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
@@ -105,7 +106,9 @@ pub use bvh::{
     Bvh, CoherentClosest, CoherentPair, CoherentQuery, CoherentScene, Eye, Facing, FrontFacing,
     Hint, KeptPair, Neighbor, PlacedModel, ProcessorQuestions, Scene, SceneDistance, WindingNumber,
 };
-pub use curve::{Curve, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance, Zone};
+pub use curve::{
+    Curve, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance, CurveSweep, Zone,
+};
 pub use format::layout::{BuildFor, SectionKind};
 pub use format::{Contradiction, HeaderField, OpenError, Section};
 pub use geom::Pose;

@@ -513,6 +513,12 @@ static void curves(void)
                                               scratch, scratch_of(round), &nearest));
         fold(&nearest, sizeof nearest);
         fold(neighbors, nearest.stored * sizeof *neighbors);
+        msw_all_within_answer all;
+        fold_word((uint32_t)msw_curve_all_within(&curve, point, 30.0f, neighbors, 3,
+                                                 budget_of(round), scratch, scratch_of(round),
+                                                 &all));
+        fold(&all, sizeof all);
+        fold(neighbors, all.stored * sizeof *neighbors);
     }
     end("curves");
 }

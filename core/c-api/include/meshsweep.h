@@ -422,6 +422,14 @@ typedef struct {
 } msw_curve_neighbor;
 
 typedef struct {
+    uint32_t stored;  /* neighbors that were written */
+    uint32_t certain; /* the first so many of them are certainly within the distance */
+    uint32_t dropped; /* further ones that did not fit: the nearest are written */
+    int32_t ended;    /* MSW_ENDED_EXACT: all others are certainly farther. Else some may miss */
+    msw_work work;
+} msw_all_within_answer;
+
+typedef struct {
     float lower;   /* nothing is nearer, or met at a lesser parameter; infinite: nowhere */
     uint32_t node; /* with this bound, or MSW_NO_NODE if `lower` is infinite */
     int32_t ended; /* MSW_ENDED_SCRATCH, _STEPS: the bound may be less than that of the leaves */
@@ -915,6 +923,19 @@ int32_t msw_curve_nearest(const msw_curve *curve, const float point[3],
                           const msw_budget *budget,
                           msw_scratch_entry *scratch, size_t scratch_count,
                           msw_nearest_answer *answer);
+
+/* All segments that are, or may be, at most `distance` from `point`, by rising distance, into
+ * `neighbors`. Of the budget only `steps` matters.
+ *
+ * Those that are certainly within the distance come first. Order and far points as in
+ * msw_curve_nearest. No neighbors (NULL and 0) is no error: `dropped` is then their number. After
+ * an error the contents of `neighbors` are undefined. Errors: those of msw_curve_within. Cost:
+ * linear in the segments within the distance. */
+int32_t msw_curve_all_within(const msw_curve *curve, const float point[3], float distance,
+                             msw_curve_neighbor *neighbors, size_t neighbor_count,
+                             const msw_budget *budget,
+                             msw_scratch_entry *scratch, size_t scratch_count,
+                             msw_all_within_answer *answer);
 
 /* Whether a fence allows `point` (x, y), and how far it is from the nearest line of the fence. The
  * z of the curves is not asked.

@@ -42,8 +42,8 @@ pub use decided::Decided;
 pub(crate) use decided::Witness;
 pub use error::QueryError;
 pub(crate) use frame::Frame;
-pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit, TriangleHit};
+pub(crate) use hits::{Hits, insert_at};
 pub use neighbors::{AllWithin, KNearest};
 pub use overlap::{AllOverlaps, TrianglePair};
 pub(crate) use overlap::{AllPairs, PairVisitor};
@@ -57,6 +57,6 @@ pub(crate) use pose::{
 pub use pose::{Joint, JointAxis, JointKind, Motion, PosedPoint, RoundedPose, link_poses};
 pub use scratch::{Scratch, ScratchEntry};
 pub use solid::{Solid, SolidDistance};
-pub(crate) use sweep_queue::{SweepQueue, Taken, before};
+pub(crate) use sweep_queue::{SweepQueue, Taken, before, bound_of, key_of};
 pub use verdict::{Side, Undecided, Verdict};
 pub use work::Work;

@@ -140,6 +140,7 @@ pub const QUESTIONS: &[Question] = &[
         "curve::closest",
         &[Kind::ClosestFar, Kind::ClosestNear],
     ),
+    question("sweep of curves", "curve", "curve::sweep", &[Kind::Sweep]),
     question("nearest segments of curves", "curve", "curve::nearest", &[Kind::Nearest]),
     question("all within of curves", "curve", "curve::all_within", &[Kind::AllWithin]),
     question("signed distance of curves", "curve", "curve::signed", &[Kind::Signed]),

@@ -63,6 +63,7 @@ pub const C_FUNCTIONS: &[(&str, &str)] = &[
     ("msw_curve_closest_point", "curve"),
     ("msw_curve_within", "curve"),
     ("msw_curve_nearest", "curve"),
+    ("msw_curve_all_within", "curve"),
     ("msw_curve_signed_distance", "curve"),
     ("msw_checksum", "any"),
     ("msw_pose_of_quaternion", "any"),
