@@ -199,6 +199,7 @@ impl<'a> SweepQueue<'a> {
         }
     }
 
+    #[inline(always)]
     fn push_heap(&mut self, entry: ScratchEntry) {
         let mut at = self.heap;
         self.heap += 1;
@@ -215,6 +216,8 @@ impl<'a> SweepQueue<'a> {
     }
 
     /// The entry of the heap with the least key.
+    // Two loops call it, and a call for each entry is dear on boards.
+    #[inline(always)]
     pub(crate) fn pop_heap(&mut self) -> Option<ScratchEntry> {
         if self.heap == 0 {
             return None;
