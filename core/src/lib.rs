@@ -28,6 +28,7 @@
 //! | inside or outside of a closed mesh | [`Bvh::signed_distance`] |
 //! | inside or outside of a mesh with holes, flaps or parts that overlap | [`Bvh::winding_number`], [`Bvh::signed_distance_by_winding`] |
 //! | segments | [`Bvh::first_hit`], [`Bvh::any_hit`], [`Bvh::all_hits`] |
+//! | rays, which have no end | [`Bvh::first_hit_of_ray`], [`Bvh::any_hit_of_ray`], [`Bvh::all_hits_of_ray`]; [`Hull::first_hit_of_ray`], [`Hull::all_hits_of_ray`] |
 //! | do two meshes meet | [`Bvh::overlap`], [`Bvh::all_overlaps`] |
 //! | how far are two meshes from each other; is one within a distance of the other | [`Bvh::distance_to`], [`Bvh::within_of`] |
 //! | the same of models that move little from one question to the next | [`CoherentPair::distance`], [`CoherentPair::within`] |

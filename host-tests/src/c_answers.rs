@@ -194,6 +194,7 @@ pub fn lines(
     text += &walks(&model)?;
     text += &a_replaced_model(groove)?;
     text += &segments(&model)?;
+    text += &rays(&model)?;
     text += &moved_solids(&model)?;
     text += &two_models(&model)?;
     text += &scene(&model)?;
@@ -280,6 +281,16 @@ fn segments(model: &Bvh<'_>) -> Result<String, QueryError> {
         let (a, b, scratch) = (kind.point(), kind.point(), &mut scratch[..entries(round)]);
         kind.words(&[0]);
         kind.first_hit(&model.first_hit(a, b, facing, budget, scratch)?);
+        Ok(())
+    })
+}
+
+fn rays(model: &Bvh<'_>) -> Result<String, QueryError> {
+    rounds("first_hit_of_ray", |kind, round, budget, scratch| {
+        let facing = [Facing::Both, Facing::Front, Facing::Back, Facing::Both][round % 4];
+        let (a, way, scratch) = (kind.point(), kind.point(), &mut scratch[..entries(round)]);
+        kind.words(&[0]);
+        kind.first_hit(&model.first_hit_of_ray(a, way, facing, budget, scratch)?);
         Ok(())
     })
 }

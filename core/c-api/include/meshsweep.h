@@ -75,7 +75,8 @@ enum {
     MSW_ERROR_INTERNAL = -46,       /* the bytes of the blob changed, or a fault of the library */
     MSW_ERROR_NO_MODEL = -47,       /* a scene lacks a named model, or a pair names one twice */
     MSW_ERROR_NOT_PLANAR = -48,     /* a curve's points differ in z, so it bounds no area */
-    MSW_ERROR_OPEN_POLYLINE = -49   /* a polyline is not closed, so it bounds no area */
+    MSW_ERROR_OPEN_POLYLINE = -49,  /* a polyline is not closed, so it bounds no area */
+    MSW_ERROR_NO_DIRECTION = -50    /* the direction of a ray is zero */
 };
 
 /* Verdicts. MSW_YES and MSW_NO are proved. `!verdict` is not "no": compare, or use msw_is_clear. */
@@ -573,6 +574,18 @@ int32_t msw_first_hit(const msw_model *model, const float a[3], const float b[3]
                       const msw_budget *budget,
                       msw_scratch_entry *scratch, size_t scratch_count,
                       msw_hit *answer);
+
+/* The first common point of a ray and the surface: of origin + t * direction, 0 <= t. The direction
+ * has any length but 0 (MSW_ERROR_NO_DIRECTION), and t is in units of it.
+ *
+ * All else as msw_first_hit, about a segment that ends behind the model. If no hit is proved,
+ * t.upper is the parameter of an end behind the model. MSW_ERROR_OUT_OF_DOMAIN: the origin is
+ * farther than some 200,000 model sizes. */
+int32_t msw_first_hit_of_ray(const msw_model *model, const float origin[3],
+                             const float direction[3], int32_t facing,
+                             const msw_budget *budget,
+                             msw_scratch_entry *scratch, size_t scratch_count,
+                             msw_hit *answer);
 
 /* Where a convex solid that moves first meets the surface. The solid is all that is within `radius`
  * of the hull of its corners: one corner is a sphere, two are a capsule, eight a box. Each corner

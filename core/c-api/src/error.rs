@@ -83,6 +83,8 @@ errors! {
     NotPlanar = -48, c"the curve's points differ in z, so it bounds no area: give all the same z";
     /// A polyline that is not closed.
     OpenPolyline = -49, c"a polyline is not closed, so it bounds no area: build with --closed";
+    /// A ray without a direction.
+    NoDirection = -50, c"the direction of a ray is zero";
 }
 
 impl Error {
@@ -118,6 +120,7 @@ impl From<QueryError> for Error {
             QueryError::NoModel => Error::NoModel,
             QueryError::NotPlanar => Error::NotPlanar,
             QueryError::OpenPolyline { .. } => Error::OpenPolyline,
+            QueryError::NoDirection => Error::NoDirection,
             QueryError::NotServed { .. } | QueryError::NotEnclosing => Error::NotServed,
             _ => Error::Internal,
         }

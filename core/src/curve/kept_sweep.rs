@@ -5,8 +5,8 @@
 //! of the curve comes nearer by more than δ. So no key changes when the point moves, and nothing is
 //! sorted again. A run is bounded anew when it is the first of the queue.
 //!
-//! *Invariant.* Between two calls every segment of the curve is in the queue, or in a run that is in
-//! the queue, or in one that was dropped: [`SweepQueue::dropped`] is the least such key.
+//! *Invariant.* Between two calls every segment of the curve is in the queue, or in a run that is
+//! in the queue, or in one that was dropped: `SweepQueue::dropped` is the least such key.
 
 use super::capsules::{Capsules, Item};
 use super::closest_point::{CurveClosest, Nearest};
@@ -95,8 +95,8 @@ impl CurveSweep<'_, '_> {
     /// [`Curve::closest_point`] gives.
     ///
     /// After [`Ended::Steps`] or [`Ended::Tolerance`] another call goes on where this one stopped,
-    /// with the point as it is now. `safe_motion` holds, and after a motion it may be less than that
-    /// of a fresh search.
+    /// with the point as it is now. `safe_motion` holds, and after a motion it may be less than
+    /// that of a fresh search.
     ///
     /// Cost: while the point moves by less than `safe_motion`, one segment in f64 and no run. Else
     /// that of the runs that the motion brings nearer than the nearest segment. Source: Guéziec

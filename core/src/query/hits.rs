@@ -94,6 +94,12 @@ pub struct AllHits {
     pub ended: Ended,
 }
 
+impl AllHits {
+    /// No triangle is met.
+    pub(crate) const NONE: AllHits =
+        AllHits { stored: 0, dropped: 0, is_complete: true, work: Work::NONE, ended: Ended::Exact };
+}
+
 /// What the caller's slice of hits holds.
 pub(crate) trait Listed: Copy {
     fn hit(&self) -> &Hit;

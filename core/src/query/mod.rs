@@ -30,6 +30,7 @@ mod overlap;
 mod pair_distance;
 mod penetration;
 mod pose;
+mod ray;
 mod scratch;
 mod solid;
 mod sweep_queue;
@@ -55,6 +56,7 @@ pub(crate) use pose::{
     skew_of,
 };
 pub use pose::{Joint, JointAxis, JointKind, Motion, PosedPoint, RoundedPose, link_poses};
+pub(crate) use ray::{Behind, Ray};
 pub use scratch::{Scratch, ScratchEntry};
 pub use solid::{Solid, SolidDistance};
 pub(crate) use sweep_queue::{SweepQueue, Taken, before, bound_of, key_of};

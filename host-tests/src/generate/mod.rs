@@ -14,6 +14,7 @@ pub mod extremes;
 pub mod defects;
 mod extrude;
 pub mod fixtures;
+pub mod rays;
 mod rng;
 pub mod scenes;
 mod solids;

@@ -37,6 +37,7 @@ pub const C_FUNCTIONS: &[(&str, &str)] = &[
     ("msw_signed_distance", "closest"),
     ("msw_winding_number", "winding"),
     ("msw_first_hit", "segment"),
+    ("msw_first_hit_of_ray", "segment"),
     ("msw_overlap", "segment"),
     ("msw_within_of", "segment"),
     ("msw_distance", "segment"),
