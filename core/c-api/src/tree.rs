@@ -72,8 +72,8 @@ questions! {
     msw_first_hit_of_ray(
         model: In<Model>, origin: In<[f32; 3]>, direction: In<[f32; 3]>, facing_code: i32
     ) -> HitC {
-        let (model, origin, way) = (model.view()?, origin.get()?, direction.get()?);
-        let facing = facing(facing_code)?;
+        let (model, [origin, way], facing) =
+            (model.view()?, [origin.get()?, direction.get()?], facing(facing_code)?);
         |budget, scratch| model.first_hit_of_ray(origin, way, facing, budget, scratch)
     }
     msw_solid_first_contact(
