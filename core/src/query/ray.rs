@@ -87,12 +87,11 @@ mod tests {
     #[test]
     fn the_place_is_behind_and_the_direction_keeps_its_bits() {
         let mut noise = Noise(5);
-        for round in 0..10_000 {
+        for (round, exponent) in (0..10_000).zip((-100..100).cycle()) {
             let size = [1.0, 1e-30, 1e30, 1e-44][round % 4];
             let direction = [(); 3].map(|()| noise.unit() * size);
             let Ok(ray) = Ray::new([0.0; 3], direction) else { continue };
-            let (unit, beyond) =
-                (exp2(round as i32 % 200 - 100), f64::from(noise.unit().abs()) + 1.0);
+            let (unit, beyond) = (exp2(exponent), f64::from(noise.unit().abs()) + 1.0);
             let Behind { way, parameter } = ray.behind(unit, beyond);
             let most = way.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             assert!(beyond < most && most <= 4.0 * beyond, "{beyond} {most}");

@@ -49,7 +49,7 @@ impl EndedRay {
 /// coordinate of the mesh.
 pub fn ended_rays(vertices: &[[f32; 3]], reach: f32, count: usize, rng: &mut Rng) -> Vec<EndedRay> {
     let unit = 2f32.powi(reach.log2().ceil() as i32 - 12);
-    let mut whole = |most: i32| rng.below(2 * most as usize + 1) as i32 - most;
+    let mut whole = |most: i32| (rng.below(2 * most as usize + 1) as u32).cast_signed() - most;
     let mut found = Vec::new();
     for round in 0..count {
         let mut lattice = |most: i32| [(); 3].map(|()| whole(most) as f32 * unit);
