@@ -28,6 +28,7 @@
 //! | inside or outside of a closed mesh | [`Bvh::signed_distance`] |
 //! | inside or outside of a mesh with holes, flaps or parts that overlap | [`Bvh::winding_number`], [`Bvh::signed_distance_by_winding`] |
 //! | segments | [`Bvh::first_hit`], [`Bvh::any_hit`], [`Bvh::all_hits`] |
+//! | rays, which have no end | [`Bvh::first_hit_of_ray`], [`Bvh::any_hit_of_ray`], [`Bvh::all_hits_of_ray`]; [`Hull::first_hit_of_ray`], [`Hull::all_hits_of_ray`] |
 //! | do two meshes meet | [`Bvh::overlap`], [`Bvh::all_overlaps`] |
 //! | how far are two meshes from each other; is one within a distance of the other | [`Bvh::distance_to`], [`Bvh::within_of`] |
 //! | the same of models that move little from one question to the next | [`CoherentPair::distance`], [`CoherentPair::within`] |
@@ -44,6 +45,7 @@
 //! | bounds of the distance in some 150 instructions, the side and a direction, from a lattice | [`Sdf::distance`], [`Sdf::distance_and_gradient`], [`Sdf::within`] |
 //! | the same in whole units, without floating point | [`Sdf::distance_in_units`], [`Sdf::gradient_in_units`] |
 //! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`], [`Curve::nearest`], [`Curve::all_within`] |
+//! | the same of a point that moves little, or in several calls | [`Curve::sweep`] |
 //! | inside or outside of a fence of inclusion and exclusion zones, and how far from its line | [`Curve::signed_distance`] |
 //! | the faces of a nested hull | [`Hull::faces`] |
 //! | the hull that a scene needs: fine near a point, in a box, toward an eye | [`RefinedHull::update`] |
@@ -110,7 +112,9 @@ pub use bvh::{
     Bvh, CoherentClosest, CoherentPair, CoherentQuery, CoherentScene, Eye, Facing, FrontFacing,
     Hint, KeptPair, Neighbor, PlacedModel, ProcessorQuestions, Scene, SceneDistance, WindingNumber,
 };
-pub use curve::{Curve, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance, Zone};
+pub use curve::{
+    Curve, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance, CurveSweep, Zone,
+};
 pub use format::layout::{BuildFor, SectionKind};
 pub use format::{Contradiction, HeaderField, OpenError, Section};
 pub use geom::Pose;

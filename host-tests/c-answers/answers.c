@@ -297,6 +297,19 @@ static void segments(const msw_model *model)
 
     begin();
     for (int round = 0; round < ROUNDS; round++) {
+        float origin[3], direction[3];
+        random_point(origin);
+        random_point(direction);
+        msw_hit answer;
+        fold_word((uint32_t)msw_first_hit_of_ray(model, origin, direction,
+                                                 round % 4 == 3 ? 0 : round % 4, budget_of(round),
+                                                 scratch, scratch_of(round), &answer));
+        fold(&answer, sizeof answer);
+    }
+    end("first_hit_of_ray");
+
+    begin();
+    for (int round = 0; round < ROUNDS; round++) {
         float corners[4][3];
         for (int corner = 0; corner < 4; corner++) {
             random_point(corners[corner]);
@@ -517,6 +530,12 @@ static void curves(void)
                                               scratch, scratch_of(round), &nearest));
         fold(&nearest, sizeof nearest);
         fold(neighbors, nearest.stored * sizeof *neighbors);
+        msw_all_within_answer all;
+        fold_word((uint32_t)msw_curve_all_within(&curve, point, 30.0f, neighbors, 3,
+                                                 budget_of(round), scratch, scratch_of(round),
+                                                 &all));
+        fold(&all, sizeof all);
+        fold(neighbors, all.stored * sizeof *neighbors);
     }
     end("curves");
 }

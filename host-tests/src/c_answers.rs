@@ -199,6 +199,7 @@ pub fn lines(
     text += &walks(&model)?;
     text += &a_replaced_model(groove)?;
     text += &segments(&model)?;
+    text += &rays(&model)?;
     text += &moved_solids(&model)?;
     text += &two_models(&model)?;
     text += &scene(&model)?;
@@ -289,6 +290,16 @@ fn segments(model: &Bvh<'_>) -> Result<String, QueryError> {
         let (a, b, scratch) = (kind.point(), kind.point(), &mut scratch[..entries(round)]);
         kind.words(&[0]);
         kind.first_hit(&model.first_hit(a, b, facing, budget, scratch)?);
+        Ok(())
+    })
+}
+
+fn rays(model: &Bvh<'_>) -> Result<String, QueryError> {
+    rounds("first_hit_of_ray", |kind, round, budget, scratch| {
+        let facing = [Facing::Both, Facing::Front, Facing::Back, Facing::Both][round % 4];
+        let (a, way, scratch) = (kind.point(), kind.point(), &mut scratch[..entries(round)]);
+        kind.words(&[0]);
+        kind.first_hit(&model.first_hit_of_ray(a, way, facing, budget, scratch)?);
         Ok(())
     })
 }
@@ -529,6 +540,14 @@ fn curves(fence: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     let (mut kind, mut scratch) = (Kind::begin(), Scratch::<SCRATCH>::new());
     kind.words(&[0, curve.scratch_entries() as u32, 0]);
     curve.check_fence()?;
+    let listed = |kind: &mut Kind, found: &[CurveNeighbor]| {
+        for near in found {
+            kind.interval(near.distance());
+            kind.floats(&near.point());
+            kind.words(&[near.segment().polyline, near.segment().segment]);
+            kind.floats(&[near.t()]);
+        }
+    };
     let on_curve = |kind: &mut Kind, near: &CurveClosest| {
         kind.interval(near.distance);
         kind.floats(&near.point);
@@ -559,12 +578,12 @@ fn curves(fence: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
         kind.words(&[0, found.stored as u32, ended(found.ended)]);
         kind.floats(&[found.rest_lower]);
         kind.work(found.work);
-        for near in &near[..found.stored] {
-            kind.interval(near.distance());
-            kind.floats(&near.point());
-            kind.words(&[near.segment().polyline, near.segment().segment]);
-            kind.floats(&[near.t()]);
-        }
+        listed(&mut kind, &near[..found.stored]);
+        let found = curve.all_within(point, 30.0, &mut near, budget, scratch)?;
+        kind.words(&[0, found.stored as u32, found.certain as u32, found.dropped]);
+        kind.words(&[ended(found.ended)]);
+        kind.work(found.work);
+        listed(&mut kind, &near[..found.stored]);
     }
     Ok(kind.line("curves"))
 }

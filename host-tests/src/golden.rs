@@ -16,7 +16,7 @@ use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::Blob;
 use meshsweep_counted::answers;
 
-use crate::generate::curves::{fence, tool_path, zones};
+use crate::generate::curves::{fence, tool_path, zones, zones_csv};
 use crate::generate::fixtures::write_fixtures;
 use crate::generate::{bracket, clamps, groove_block, link, table, torus};
 use crate::workload;
@@ -93,14 +93,14 @@ pub fn torus_sieve() -> Vec<u8> {
 }
 
 /// What `meshsweep build --emit rust,c` writes of the models of guide and examples, and of each the
-/// blob that its Rust file includes: paths in `core`, and contents.
+/// blob that its Rust file includes: paths in `core`, and contents. The CSV of the fence too.
 ///
 /// # Panics
 /// Never: the builder's blobs open.
 #[must_use]
 pub fn sources() -> Vec<(String, Vec<u8>)> {
     let (groove, clamps, [link, table]) = (groove_tree(), clamps_tree(), arm_trees());
-    let zones = zone_curves();
+    let geofence = zone_curves();
     let mut files = Vec::new();
     for (name, bytes, folders) in [
         (
@@ -111,7 +111,7 @@ pub fn sources() -> Vec<(String, Vec<u8>)> {
         ("clamps", &clamps, &["examples/keep_out/src"]),
         ("link", &link, &["examples/guard/src"]),
         ("table", &table, &["examples/guard/src"]),
-        ("zones", &zones, &["examples/fence/src"]),
+        ("zones", &geofence, &["examples/fence/src"]),
     ] {
         let blob = Blob::open(bytes).expect("the builder's blob opens");
         let kind = if blob.curve().is_ok() { "csv" } else { "obj" };
@@ -125,6 +125,8 @@ pub fn sources() -> Vec<(String, Vec<u8>)> {
         files.push((format!("{c}.h"), c_header(&blob, names).into_bytes()));
         files.push((format!("{c}.c"), c_source(&blob, names).into_bytes()));
     }
+    let csv = zones_csv(&zones()).into_bytes();
+    files.push(("examples/fence/src/zones.csv".to_owned(), csv));
     files
 }
 

@@ -122,6 +122,15 @@ fn committed_field_is_what_the_builder_makes() {
 }
 
 #[test]
+fn the_fence_of_the_example_is_what_the_builder_makes_of_its_csv() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../core/examples/fence/src");
+    let read = |name: &str| std::fs::read(folder.join(name)).expect("the example has it");
+    let zones = read_csv(&read("zones.csv"), false).expect("CSV");
+    let built = build(&zones, &CurveOptions::default(), Watch::NONE).expect("finite");
+    assert!(read("zones.msw") == built.0.to_bytes());
+}
+
+#[test]
 fn committed_hierarchy_of_an_open_mesh_is_what_the_builder_makes() {
     let bytes = read("sieve.msw");
     assert!(

@@ -1,6 +1,8 @@
-//! `meshsweep segment --all` beside `meshsweep segment`.
+//! `meshsweep segment --all`, and `--rays`, beside `meshsweep segment`.
 
-use crate::support::{arg, blob, fixture, number, ok, parse_csv, scratch, triangles, write_csv};
+use crate::support::{
+    arg, blob, fixture, number, ok, parse_csv, refused, run, scratch, triangles, write_csv,
+};
 
 const SEGMENT: &str = "hit,t,px,py,pz,triangle,work";
 
@@ -55,4 +57,34 @@ fn each_hit_of_a_height_field_is_certain_by_itself() {
         assert!(mixed > 100 && agreed > 200, "{bits}: {mixed} {agreed}");
         assert!(bits == "32" || may_lack > 20, "{may_lack}");
     }
+}
+
+#[test]
+fn rays_meet_what_segments_along_them_meet() {
+    let directory = scratch("rays");
+    let path = blob(&directory, "reported/height_field.obj", &["--for", "segment"]);
+    let (segments, rays) = (directory.join("s.csv"), directory.join("r.csv"));
+    let mesh = triangles(&fixture("reported/height_field.obj"));
+    // The same starts, and a 64th of the ways.
+    let rows = slanted(&mesh);
+    let way = |row: &[f32; 6]| {
+        std::array::from_fn(|k| if k < 3 { row[k] } else { (row[k] - row[k - 3]) / 64.0 })
+    };
+    write_csv(&segments, &rows);
+    write_csv(&rays, &rows.iter().map(way).collect::<Vec<[f32; 6]>>());
+    let along_segments = parse_csv(&ok(["segment", arg(&path), arg(&segments)]), SEGMENT);
+    let along_rays = parse_csv(&ok(["segment", arg(&path), "--rays", arg(&rays)]), SEGMENT);
+    assert_eq!(along_segments.len(), along_rays.len());
+    let mut both = 0;
+    for (segment, ray) in along_segments.iter().zip(&along_rays) {
+        // A ray's way is rounded otherwise, so it may pass an edge on the other side.
+        if segment[0] == "yes" && ray[0] == "yes" {
+            let (t, of_ray) = (number(&segment[1]), number(&ray[1]));
+            assert!((of_ray - 64.0 * t).abs() <= 1e-4 * of_ray, "{segment:?} {ray:?}");
+            both += 1;
+        }
+    }
+    assert!(both > 200, "{both}");
+    let told = refused(&run(["segment", arg(&path), "--rays", "0,0,9,0,0,0"]), 1, "");
+    assert!(told.contains("the direction of a ray is zero"), "{told}");
 }

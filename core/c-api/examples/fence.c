@@ -68,7 +68,7 @@ static int32_t fly(uint32_t number, const struct leg *leg)
         if (left < KEEP) {
             print_line("  brakes after ms: ", tick * PERIOD, "");
             print_line("  millimetres left, for certain: ", (uint32_t)(left * 1000.0f), "");
-            print_line("  the nearest line is of zone ", found.closest.polyline + 1, "");
+            print_line("  the nearest line is of zone ", found.closest.polyline, "");
             return MSW_OK;
         }
         x += leg->step[0];

@@ -79,7 +79,8 @@ enum {
     MSW_ERROR_NOT_PLANAR = -48,     /* a curve's points differ in z, so it bounds no area */
     MSW_ERROR_OPEN_POLYLINE = -49,  /* a polyline is not closed, so it bounds no area */
     MSW_ERROR_NO_FRAME = -50,       /* a key frame is not in the blob */
-    MSW_ERROR_NO_POSE = -51         /* the last update of the vertices was refused */
+    MSW_ERROR_NO_POSE = -51,        /* the last update of the vertices was refused */
+    MSW_ERROR_NO_DIRECTION = -52    /* the direction of a ray is zero */
 };
 
 /* Verdicts. MSW_YES and MSW_NO are proved. `!verdict` is not "no": compare, or use msw_is_clear. */
@@ -469,6 +470,14 @@ typedef struct {
 } msw_verdict_answer;
 
 typedef struct {
+    uint32_t stored;  /* neighbors that were written */
+    uint32_t certain; /* the first so many of them are certainly within the distance */
+    uint32_t dropped; /* further ones that did not fit: the nearest are written */
+    int32_t ended;    /* MSW_ENDED_EXACT: all others are certainly farther. Else some may miss */
+    msw_work work;
+} msw_all_within_answer;
+
+typedef struct {
     float lower;   /* nothing is nearer, or met at a lesser parameter; infinite: nowhere */
     uint32_t node; /* with this bound, or MSW_NO_NODE if `lower` is infinite */
     int32_t ended; /* MSW_ENDED_SCRATCH, _STEPS: the bound may be less than that of the leaves */
@@ -612,6 +621,18 @@ int32_t msw_first_hit(const msw_model *model, const float a[3], const float b[3]
                       const msw_budget *budget,
                       msw_scratch_entry *scratch, size_t scratch_count,
                       msw_hit *answer);
+
+/* The first common point of a ray and the surface: of origin + t * direction, 0 <= t. The direction
+ * has any length but 0 (MSW_ERROR_NO_DIRECTION), and t is in units of it.
+ *
+ * All else as msw_first_hit, about a segment that ends behind the model. If no hit is proved,
+ * t.upper is the parameter of an end behind the model. MSW_ERROR_OUT_OF_DOMAIN: the origin is
+ * farther than some 200,000 model sizes. */
+int32_t msw_first_hit_of_ray(const msw_model *model, const float origin[3],
+                             const float direction[3], int32_t facing,
+                             const msw_budget *budget,
+                             msw_scratch_entry *scratch, size_t scratch_count,
+                             msw_hit *answer);
 
 /* Where a convex solid that moves first meets the surface. The solid is all that is within `radius`
  * of the hull of its corners: one corner is a sphere, two are a capsule, eight a box. Each corner
@@ -1004,6 +1025,19 @@ int32_t msw_curve_nearest(const msw_curve *curve, const float point[3],
                           const msw_budget *budget,
                           msw_scratch_entry *scratch, size_t scratch_count,
                           msw_nearest_answer *answer);
+
+/* All segments that are, or may be, at most `distance` from `point`, by rising distance, into
+ * `neighbors`. Of the budget only `steps` matters.
+ *
+ * Those that are certainly within the distance come first. Order and far points as in
+ * msw_curve_nearest. No neighbors (NULL and 0) is no error: `dropped` is then their number. After
+ * an error the contents of `neighbors` are undefined. Errors: those of msw_curve_within. Cost:
+ * linear in the segments within the distance. */
+int32_t msw_curve_all_within(const msw_curve *curve, const float point[3], float distance,
+                             msw_curve_neighbor *neighbors, size_t neighbor_count,
+                             const msw_budget *budget,
+                             msw_scratch_entry *scratch, size_t scratch_count,
+                             msw_all_within_answer *answer);
 
 /* Whether a fence allows `point` (x, y), and how far it is from the nearest line of the fence. The
  * z of the curves is not asked.

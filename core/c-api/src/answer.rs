@@ -4,10 +4,10 @@
 #![allow(missing_docs, reason = "meshsweep.h says it")]
 
 use meshsweep_core::{
-    ClosestPoint, CoherentClosest, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance,
-    Decided, Ended, FieldDistance, FirstHit, Interval, KNearest, Neighbor, NodePair, PairContact,
-    PairDistance, Separation, Side, SignedDistance, TriboxBound, TriboxCandidates, Undecided,
-    UnitDistance, Verdict, WindingNumber, Work,
+    AllWithin, ClosestPoint, CoherentClosest, CurveClosest, CurveNeighbor, CurveSegment,
+    CurveSignedDistance, Decided, Ended, FieldDistance, FirstHit, Interval, KNearest, Neighbor,
+    NodePair, PairContact, PairDistance, Separation, Side, SignedDistance, TriboxBound,
+    TriboxCandidates, Undecided, UnitDistance, Verdict, WindingNumber, Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
@@ -43,6 +43,7 @@ answers! {
     }
     WithinC { verdict: i32, reason: i32, triangle: u32, work: WorkC }
     NeighborC { distance: IntervalC, point: [f32; 3], triangle: u32 }
+    AllWithinC { stored: u32, certain: u32, dropped: u32, ended: i32, work: WorkC }
     NearestC { stored: u32, ended: i32, rest_lower: f32, work: WorkC }
     OverlapC { verdict: i32, reason: i32, triangles: [u32; 2], work: WorkC }
     SceneC { verdict: i32, reason: i32, models: [u32; 2], work: WorkC }
@@ -241,6 +242,18 @@ impl From<KNearest> for NearestC {
             stored: found.stored as u32,
             ended: ended(found.ended),
             rest_lower: found.rest_lower,
+            work: found.work.into(),
+        }
+    }
+}
+
+impl From<AllWithin> for AllWithinC {
+    fn from(found: AllWithin) -> Self {
+        AllWithinC {
+            stored: found.stored as u32,
+            certain: found.certain as u32,
+            dropped: found.dropped,
+            ended: ended(found.ended),
             work: found.work.into(),
         }
     }

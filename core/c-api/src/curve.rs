@@ -1,8 +1,10 @@
 //! Curves: fences and tool paths.
 
-use meshsweep_core::{Curve, CurveNeighbor, ScratchEntry};
+use meshsweep_core::{AllWithin, Curve, CurveNeighbor, KNearest, ScratchEntry};
 
-use crate::answer::{CurveClosestC, CurveNeighborC, CurveSignedC, CurveWithinC, NearestC};
+use crate::answer::{
+    AllWithinC, CurveClosestC, CurveNeighborC, CurveSignedC, CurveWithinC, NearestC,
+};
 use crate::ask::{ask, questions};
 use crate::error::Error;
 use crate::memory::{In, Out, Storage, View};
@@ -69,12 +71,28 @@ questions! {
     }
 }
 
+/// Asks a question that lists segments. The search keeps its segments where the answers will be.
+fn listed<T>(
+    mut neighbors: Out<CurveNeighborC>,
+    neighbor_count: usize,
+    stored: impl FnOnce(&T) -> usize,
+    question: impl FnOnce(&mut [CurveNeighbor]) -> Result<T, Error>,
+) -> Result<T, Error> {
+    let mut held = neighbors.held::<CurveNeighbor>();
+    let found = question(held.slice(neighbor_count)?)?;
+    for index in 0..stored(&found) {
+        let near = held.slice(neighbor_count)?.get(index).copied();
+        neighbors.set(neighbor_count, index, near.ok_or(Error::Internal)?.into())?;
+    }
+    Ok(found)
+}
+
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
 pub extern "C" fn msw_curve_nearest(
     curve: In<CurveStorage>,
     point: In<[f32; 3]>,
-    mut neighbors: Out<CurveNeighborC>,
+    neighbors: Out<CurveNeighborC>,
     neighbor_count: usize,
     budget: In<BudgetC>,
     scratch: Out<ScratchEntry>,
@@ -83,15 +101,41 @@ pub extern "C" fn msw_curve_nearest(
 ) -> i32 {
     answer.answer(|| {
         let (curve, point) = (curve.view()?.curve(), point.get()?);
-        // The search keeps its segments where the answers will be.
-        let mut held = neighbors.held::<CurveNeighbor>();
         let found = ask(budget, scratch, scratch_count, |budget, scratch| {
-            Ok(curve.nearest(point, held.slice(neighbor_count)?, budget, scratch)?)
+            listed(
+                neighbors,
+                neighbor_count,
+                |found: &KNearest| found.stored,
+                |out| Ok(curve.nearest(point, out, budget, scratch)?),
+            )
         })?;
-        for index in 0..found.stored {
-            let near = held.slice(neighbor_count)?.get(index).copied();
-            neighbors.set(neighbor_count, index, near.ok_or(Error::Internal)?.into())?;
-        }
+        Ok(found.into())
+    })
+}
+
+/// See `meshsweep.h`.
+#[unsafe(no_mangle)]
+pub extern "C" fn msw_curve_all_within(
+    curve: In<CurveStorage>,
+    point: In<[f32; 3]>,
+    distance: f32,
+    neighbors: Out<CurveNeighborC>,
+    neighbor_count: usize,
+    budget: In<BudgetC>,
+    scratch: Out<ScratchEntry>,
+    scratch_count: usize,
+    answer: Out<AllWithinC>,
+) -> i32 {
+    answer.answer(|| {
+        let (curve, point) = (curve.view()?.curve(), point.get()?);
+        let found = ask(budget, scratch, scratch_count, |budget, scratch| {
+            listed(
+                neighbors,
+                neighbor_count,
+                |found: &AllWithin| found.stored,
+                |out| Ok(curve.all_within(point, distance, out, budget, scratch)?),
+            )
+        })?;
         Ok(found.into())
     })
 }

@@ -89,6 +89,8 @@ errors! {
     NoFrame = -50, c"a key frame is not in the blob: 0 to msw_deform_frames - 1";
     /// Vertices without places.
     NoPose = -51, c"the last update of the vertices was refused: update them again";
+    /// A ray without a direction.
+    NoDirection = -52, c"the direction of a ray is zero";
 }
 
 impl Error {
@@ -133,6 +135,7 @@ impl From<QueryError> for Error {
             QueryError::NoPose => Error::NoPose,
             QueryError::VertexRecords { .. } => Error::Memory,
             QueryError::VertexOutOfDomain { .. } => Error::OutOfDomain,
+            QueryError::NoDirection => Error::NoDirection,
             QueryError::NotServed { .. } | QueryError::NotEnclosing => Error::NotServed,
             _ => Error::Internal,
         }

@@ -69,6 +69,13 @@ questions! {
         let (model, a, b, facing) = (model.view()?, a.get()?, b.get()?, facing(facing_code)?);
         |budget, scratch| model.first_hit(a, b, facing, budget, scratch)
     }
+    msw_first_hit_of_ray(
+        model: In<Model>, origin: In<[f32; 3]>, direction: In<[f32; 3]>, facing_code: i32
+    ) -> HitC {
+        let (model, [origin, way], facing) =
+            (model.view()?, [origin.get()?, direction.get()?], facing(facing_code)?);
+        |budget, scratch| model.first_hit_of_ray(origin, way, facing, budget, scratch)
+    }
     msw_solid_first_contact(
         model: In<Model>, from: In<[f32; 3]>, to: In<[f32; 3]>, corner_count: usize, radius: f32
     ) -> HitC {

@@ -88,6 +88,7 @@ fn layouts() -> String {
         "msw_hit": HitC { verdict, ended, t, hit_t, point, triangle, work }
         "msw_within_answer": WithinC { verdict, reason, triangle, work }
         "msw_neighbor": NeighborC { distance, point, triangle }
+        "msw_all_within_answer": AllWithinC { stored, certain, dropped, ended, work }
         "msw_nearest_answer": NearestC { stored, ended, rest_lower, work }
         "msw_overlap_answer": OverlapC { verdict, reason, triangles, work }
         "msw_within_of_answer": OverlapC { verdict, reason, triangles, work }

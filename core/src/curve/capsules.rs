@@ -3,7 +3,7 @@
 //! A run's capsule is the segment between its ends, swept by a radius. Distance to a segment is a
 //! convex function. So a capsule that holds the run's points holds its segments.
 
-use crate::curve::format::{Curve, Run};
+use crate::curve::format::{Curve, Node, Run};
 use crate::geom::{CapsulePoint, PointSegment, point_segment};
 use crate::num::down_to_f32;
 use crate::num::tolerance::{F32_BOUNDS, U64};
@@ -28,6 +28,9 @@ pub(crate) enum Item {
 }
 
 impl<'a> Capsules<'a> {
+    // A call keeps `distant` in memory. A comparison in f64 is dear on boards, and a compiler that
+    // sees it computes it anew for each run.
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
     pub(crate) fn new(curve: &'a Curve<'a>, p: DVec3) -> Self {
         // In f32's normal range the conversion is exact; below, it costs less than
         // `tolerance::CAPSULE_UNDERFLOW`.
@@ -67,6 +70,19 @@ impl<'a> Capsules<'a> {
             self.near.lower(a, b, run.radius)
         };
         Some(ScratchEntry::new(key, run.item))
+    }
+
+    /// The lower bound of a node or a segment that an entry of the queue stands for. `None`: the
+    /// curve is unchecked.
+    pub(crate) fn lower(&self, item: u32) -> Option<f32> {
+        let run = match self.item(ScratchEntry::new(0.0, item)) {
+            Item::Segment(first) => Run { item, first, last: first.checked_add(1)?, radius: 0.0 },
+            Item::Node(node) => {
+                let Node { first, last, radius } = self.curve.node(node)?;
+                Run { item, first, last, radius }
+            }
+        };
+        self.bounded(&run).map(|entry| entry.key())
     }
 
     /// Whether the point is certainly outside of a run's capsule.

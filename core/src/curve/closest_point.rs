@@ -1,13 +1,13 @@
 //! Closest point of a curve by the priority process of Guéziec 2000, 3.2, and how far the query may
 //! move (3.3).
 
-use super::capsules::{Capsules, Item};
+use super::capsules::Capsules;
+use super::descent::{Descended, SegmentVisitor, Visited, descend, segment};
 use crate::curve::format::{Curve, CurveSegment};
 use crate::num::tolerance::{CURVE_FAR, REPORTED, U64};
-use crate::num::{down_to_f32, up_to_f32};
-use crate::query::{
-    Budget, Ended, Frame, Interval, QueryError, ScratchEntry, SweepQueue, Taken, Work,
-};
+use crate::num::{Real, down_to_f32, up_to_f32};
+use crate::query::{Budget, Ended, Frame, Interval, QueryError, ScratchEntry, SweepQueue, Work};
+use core::ops::ControlFlow;
 use glam::DVec3;
 
 /// Closest point of a curve.
@@ -82,18 +82,18 @@ pub(super) fn closest_point(
     steps: u32,
     scratch: &mut [ScratchEntry],
 ) -> Result<CurveClosest, QueryError> {
-    let frame = curve.frame;
-    let mut search = SegmentSearch::new(curve, p);
+    let capsules = Capsules::new(curve, p);
+    let mut work = Work::default();
+    let mut search = Nearest::new(&curve.frame, [relative, absolute]);
     let is_far = p.abs().max_element() > CURVE_FAR;
     let ended = if is_far {
         Some(Ended::Exact)
     } else {
         let queue = SweepQueue::new(scratch, curve.scratch_entries());
-        let tolerances = [f64::from(relative), frame.length(absolute)];
-        search.run(queue, relative > 0.0 || absolute > 0.0, tolerances, steps)
+        search.run(&capsules, queue, steps, &mut work)
     };
     let ended = ended.ok_or(QueryError::Unchecked)?;
-    search.answer(&frame, is_far, ended).ok_or(QueryError::Unchecked)
+    search.answer(&capsules, is_far, work, ended).ok_or(QueryError::Unchecked)
 }
 
 /// Beyond all distances, local frame: there is nothing else.
@@ -112,9 +112,15 @@ struct Best {
     t: f64,
 }
 
-/// State of one query. Lengths are in the local frame.
-struct SegmentSearch<'a> {
-    capsules: Capsules<'a>,
+/// What a search for the closest segment knows. Lengths are in the local frame.
+pub(super) struct Nearest {
+    surface_error: f64,
+    is_tolerant: bool,
+    /// 1 plus the relative one, and the absolute one.
+    tolerances: [f64; 2],
+    /// The reported upper end, if there is a tolerance: with the stored curve's error, and rounded
+    /// to f32 outward.
+    reported: f64,
     /// Not below the distance; f64 for the answer, f32 rounded up for pruning.
     upper: f64,
     upper_f32: f32,
@@ -125,127 +131,152 @@ struct SegmentSearch<'a> {
     /// Least bound of all runs that were left. In f32, because f64 is slow on a Cortex-M.
     left: f32,
     best: Option<Best>,
-    work: Work,
 }
 
-impl<'a> SegmentSearch<'a> {
-    fn new(curve: &'a Curve<'a>, p: DVec3) -> Self {
-        SegmentSearch {
-            capsules: Capsules::new(curve, p),
+impl SegmentVisitor for Nearest {
+    #[inline(always)]
+    fn is_beyond(&self, lower: f32) -> bool {
+        Real(lower) > Real(self.upper_f32)
+    }
+
+    /// The first segment gives the first limit.
+    #[inline(always)]
+    fn dives(&self) -> bool {
+        self.best.is_none()
+    }
+
+    #[inline(always)]
+    fn leave(&mut self, lower: f32) {
+        if Real(lower) < Real(self.left) {
+            self.left = lower;
+        }
+    }
+
+    #[inline(always)]
+    fn visit(&mut self, at: &Visited) -> Option<ControlFlow<()>> {
+        self.take(at);
+        Some(ControlFlow::Continue(()))
+    }
+}
+
+impl Nearest {
+    /// Nothing is known. Tolerances are relative, and absolute in input units.
+    #[inline(always)]
+    pub(super) fn new(frame: &Frame, [relative, absolute]: [f32; 2]) -> Self {
+        Nearest {
+            surface_error: frame.surface_error(),
+            is_tolerant: relative > 0.0 || absolute > 0.0,
+            tolerances: [1.0 + f64::from(relative), frame.length(absolute)],
+            reported: f64::INFINITY,
             upper: f64::INFINITY,
             upper_f32: f32::INFINITY,
             lower: f64::INFINITY,
             others: f64::INFINITY,
             left: f32::INFINITY,
             best: None,
-            work: Work::default(),
         }
     }
 
-    /// `None`: the curve is unchecked.
+    /// Whether the tolerance is met if nothing is nearer than `lower`.
+    // Inlined, it is computed on boards before it is known whether there is a tolerance.
+    #[cfg_attr(meshsweep_wide, inline(always))]
+    #[cfg_attr(not(meshsweep_wide), inline(never))]
+    pub(super) fn is_near_enough(&self, [relative, absolute]: [f64; 2], lower: f32) -> bool {
+        let low = (f64::from(lower).min(self.lower) - self.surface_error) * (1.0 - REPORTED);
+        self.reported <= low * relative || self.reported - low <= absolute
+    }
+
+    /// How the search ended. `None`: the curve is unchecked.
+    // A function of its own, because its loop needs all registers of a board.
+    #[inline(never)]
     fn run(
         &mut self,
-        mut queue: SweepQueue<'_>,
-        tolerant: bool,
-        [relative, absolute]: [f64; 2],
+        capsules: &Capsules<'_>,
+        queue: SweepQueue<'_>,
         steps: u32,
+        work: &mut Work,
     ) -> Option<Ended> {
-        let surface_error = self.capsules.curve.frame.surface_error();
-        let mut next = Some(Capsules::ROOT);
-        while let Some(Taken { entry, least }) = queue.take(next.take(), self.best.is_none()) {
-            let is_done = entry.key() > self.upper_f32
-                || (tolerant && {
-                    // The reported interval: with the stored curve's error, and rounded to f32
-                    // outward.
-                    let key = f64::from(entry.key());
-                    let low = (key.min(self.lower) - surface_error) * (1.0 - REPORTED);
-                    let high = (self.upper + surface_error) * (1.0 + REPORTED);
-                    high <= low * (1.0 + relative) || high - low <= absolute
-                });
-            if is_done {
-                self.leave(entry.key());
-                if least {
-                    break;
-                }
-                continue;
-            }
-            match self.capsules.item(entry) {
-                Item::Segment(segment) => self.evaluate(segment)?,
-                Item::Node(_) if self.work.opened >= steps => {
-                    self.leave(entry.key());
-                    self.leave(queue.lower());
-                    return Some(Ended::Steps);
-                }
-                Item::Node(node) => {
-                    let [near, far] = self.capsules.open(node, &mut self.work)?;
-                    queue.begin_children(2);
-                    if far.key() > self.upper_f32 {
-                        self.leave(far.key());
-                    } else {
-                        queue.push(far);
-                    }
-                    next = Some(near);
-                }
+        let (is_tolerant, tolerances) = (self.is_tolerant, self.tolerances);
+        let how = descend(capsules, queue, steps, work, self, |search, lower| {
+            is_tolerant && search.is_near_enough(tolerances, lower)
+        })?;
+        Some(self.ended(&how))
+    }
+
+    /// Whether no segment with this lower bound is needed any more.
+    pub(super) fn is_done(&self, lower: f32) -> bool {
+        self.is_beyond(lower) || (self.is_tolerant && self.is_near_enough(self.tolerances, lower))
+    }
+
+    /// The number of the first point of the closest segment so far.
+    pub(super) fn number(&self) -> Option<u32> {
+        self.best.map(|best| best.number)
+    }
+
+    /// Takes a segment that was not taken before.
+    // A call, whose arguments are f64, is dearer on boards than the code.
+    #[inline(always)]
+    pub(super) fn take(&mut self, at: &Visited) {
+        let Visited { number, segment, near, point } = at;
+        self.lower = self.lower.min(near.lower);
+        if near.upper < self.upper {
+            self.upper = near.upper;
+            self.upper_f32 = up_to_f32(near.upper);
+            if self.is_tolerant {
+                self.reported = (self.upper + self.surface_error) * (1.0 + REPORTED);
             }
         }
-        self.leave(queue.dropped());
-        Some(if f64::from(queue.dropped()) <= self.upper {
+        let nearer = self.best.is_none_or(|best| {
+            near.distance_sq < best.distance_sq
+                || (near.distance_sq == best.distance_sq && *number < best.number)
+        });
+        if nearer {
+            let (distance_sq, lower, upper, t) = (near.distance_sq, near.lower, near.upper, near.t);
+            let (number, segment, point) = (*number, *segment, *point);
+            let before =
+                self.best.replace(Best { distance_sq, lower, upper, number, segment, point, t });
+            self.others = before.map_or(self.others, |before| self.others.min(before.lower));
+        } else {
+            self.others = self.others.min(near.lower);
+        }
+    }
+
+    pub(super) fn ended(&mut self, how: &Descended) -> Ended {
+        let Descended::Dropped(dropped) = *how else { return Ended::Steps };
+        self.leave(dropped);
+        if f64::from(dropped) <= self.upper {
             Ended::Scratch
         } else if f64::from(self.left) <= self.upper {
             Ended::Tolerance
         } else {
             Ended::Exact
-        })
-    }
-
-    /// Runs with this bound or a greater one are not looked at.
-    #[inline(always)]
-    fn leave(&mut self, key: f32) {
-        if key < self.left {
-            self.left = key;
         }
     }
 
-    fn evaluate(&mut self, number: u32) -> Option<()> {
-        // A gap is no part of the curve.
-        let Some(segment) = self.capsules.curve.segment_at(number) else { return Some(()) };
-        let (near, point) = self.capsules.distance(number, &mut self.work)?;
-        self.lower = self.lower.min(near.lower);
-        if near.upper < self.upper {
-            self.upper = near.upper;
-            self.upper_f32 = up_to_f32(near.upper);
-        }
-        let (distance_sq, lower, upper, t) = (near.distance_sq, near.lower, near.upper, near.t);
-        let nearer = self.best.is_none_or(|best| {
-            distance_sq < best.distance_sq
-                || (distance_sq == best.distance_sq && number < best.number)
-        });
-        if nearer {
-            let before =
-                self.best.replace(Best { distance_sq, lower, upper, number, segment, point, t });
-            self.others = before.map_or(self.others, |before| self.others.min(before.lower));
-        } else {
-            self.others = self.others.min(lower);
-        }
-        Some(())
-    }
-
-    fn answer(mut self, frame: &Frame, is_far: bool, ended: Ended) -> Option<CurveClosest> {
+    pub(super) fn answer(
+        mut self,
+        capsules: &Capsules<'_>,
+        is_far: bool,
+        mut work: Work,
+        ended: Ended,
+    ) -> Option<CurveClosest> {
+        let Capsules { curve, p, .. } = capsules;
+        let frame = &curve.frame;
         if self.best.is_none() {
             // Stopped before any segment was reached, or far away: the first one is as good.
             if is_far {
                 self.leave(0.0);
             }
-            self.evaluate(0)?;
+            self.take(&segment(capsules, 0, &mut work)??);
         }
         let best = self.best?;
         let left = f64::from(self.left);
         let (mut lower, mut upper) = (self.lower.min(left).min(self.upper), self.upper);
         if is_far {
-            (lower, upper) = self.capsules.curve.bounds.distance_range(self.capsules.p);
+            (lower, upper) = curve.bounds.distance_range(*p);
         }
         // Both distances may be off by the error of the stored curve, and both change by motion.
-        let (others, error) = (self.others.min(left).min(FARTHEST), frame.surface_error());
+        let (others, error) = (self.others.min(left).min(FARTHEST), self.surface_error);
         let gap = 0.5 * (others - best.upper) - error - 8.0 * U64 * (others + error);
         let safe_motion = down_to_f32(frame.input_length(gap).clamp(0.0, f64::from(f32::MAX)));
         Some(CurveClosest {
@@ -254,7 +285,7 @@ impl<'a> SegmentSearch<'a> {
             segment: best.segment,
             t: best.t as f32,
             safe_motion,
-            work: self.work,
+            work,
             ended,
         })
     }

@@ -1,12 +1,15 @@
 //! The nearest segments, and all segments within a distance.
 
-use super::capsules::{Capsules, Item};
+use super::capsules::Capsules;
+use super::descent::{Descended, SegmentVisitor, Visited, descend, segment};
 use crate::curve::format::{Curve, CurveSegment};
 use crate::num::tolerance::{CURVE_FAR, U64};
-use crate::num::{down_to_f32, up_to_f32};
+use crate::num::{Real, down_to_f32, up_to_f32};
 use crate::query::{
-    AllWithin, Budget, Ended, Interval, KNearest, QueryError, ScratchEntry, SweepQueue, Taken, Work,
+    AllWithin, Budget, Ended, Interval, KNearest, QueryError, ScratchEntry, SweepQueue, Work,
+    insert_at,
 };
+use core::ops::ControlFlow;
 
 /// A place for a segment near a point: eight words of the caller's memory. While a search runs,
 /// they hold what decides the order. After it they hold the answer.
@@ -163,10 +166,11 @@ impl Curve<'_> {
             return Ok(KNearest { stored, rest_lower, work, ended: Ended::Exact });
         }
         let queue = SweepQueue::new(scratch, self.scratch_entries());
-        let mut search = Search::new(&capsules, out, [f32::INFINITY; 2]);
-        let cut = search.run(queue, budget.steps, true, &mut work).ok_or(QueryError::Unchecked)?;
+        let mut search = Search::new(self, out, [f32::INFINITY; 2], true);
+        let cut = search.run(&capsules, queue, budget.steps, &mut work);
+        let cut = cut.ok_or(QueryError::Unchecked)?;
         let (rest, ended) = (search.rest, cut.unwrap_or(Ended::Exact));
-        let stored = search.finish(&mut work).ok_or(QueryError::Unchecked)?;
+        let stored = search.finish(&capsules, &mut work).ok_or(QueryError::Unchecked)?;
         let rest_lower =
             if stored == all { f32::INFINITY } else { self.frame.lower(f64::from(rest)) };
         Ok(KNearest { stored, rest_lower, work, ended })
@@ -221,10 +225,11 @@ impl Curve<'_> {
         // Whatever has a greater bound is certainly farther.
         let limit = (self.frame.length(distance) + self.frame.surface_error()) * (1.0 + 4.0 * U64);
         let queue = SweepQueue::new(scratch, self.scratch_entries());
-        let mut search = Search::new(&capsules, &mut *out, [distance, up_to_f32(limit)]);
-        let cut = search.run(queue, budget.steps, false, &mut work).ok_or(QueryError::Unchecked)?;
+        let mut search = Search::new(self, &mut *out, [distance, up_to_f32(limit)], false);
+        let cut = search.run(&capsules, queue, budget.steps, &mut work);
+        let cut = cut.ok_or(QueryError::Unchecked)?;
         let (dropped, ended) = (search.dropped, cut.unwrap_or(Ended::Exact));
-        let stored = search.finish(&mut work).ok_or(QueryError::Unchecked)?;
+        let stored = search.finish(&capsules, &mut work).ok_or(QueryError::Unchecked)?;
         let is_certain = |near: &&CurveNeighbor| near.distance().upper <= distance;
         let certain = out.iter().take(stored).take_while(is_certain).count();
         Ok(AllWithin { stored, certain, dropped, work, ended })
@@ -253,7 +258,7 @@ impl Curve<'_> {
 
 /// The nearest segments so far, in the caller's slice, in order.
 struct Search<'s, 'o> {
-    capsules: &'s Capsules<'s>,
+    curve: &'s Curve<'s>,
     slots: &'o mut [CurveNeighbor],
     stored: usize,
     dropped: u32,
@@ -261,117 +266,89 @@ struct Search<'s, 'o> {
     distance: f32,
     /// The same for bounds in the local frame: what has a greater one is not looked at.
     limit: f32,
+    /// Whether the last stored one is the limit once the slice is full.
+    narrows: bool,
     /// Least lower bound of what is not stored, local frame.
     rest: f32,
 }
 
-impl<'s, 'o> Search<'s, 'o> {
-    fn new(
-        capsules: &'s Capsules<'s>,
-        slots: &'o mut [CurveNeighbor],
-        [distance, limit]: [f32; 2],
-    ) -> Self {
-        let rest = f32::INFINITY;
-        Search { capsules, slots, stored: 0, dropped: 0, distance, limit, rest }
+impl SegmentVisitor for Search<'_, '_> {
+    #[inline(always)]
+    fn is_beyond(&self, lower: f32) -> bool {
+        Real(lower) > Real(self.limit)
     }
 
-    /// Looks at all segments within the limit. If it `narrows`, the last stored one is the limit
-    /// once the slice is full. `None`: the curve is unchecked. `Some(None)`: nothing is missed.
-    fn run(
-        &mut self,
-        mut queue: SweepQueue<'_>,
-        steps: u32,
-        narrows: bool,
-        work: &mut Work,
-    ) -> Option<Option<Ended>> {
-        let mut next = Some(Capsules::ROOT);
-        while let Some(Taken { entry, least }) = queue.take(next.take(), false) {
-            if entry.key() > self.limit {
-                self.leave(entry.key());
-                if least {
-                    break;
-                }
-                continue;
-            }
-            match self.capsules.item(entry) {
-                Item::Segment(number) => self.offer(number, narrows, work)?,
-                Item::Node(_) if work.opened >= steps => {
-                    self.leave(entry.key());
-                    self.leave(queue.lower());
-                    return Some(Some(Ended::Steps));
-                }
-                Item::Node(node) => {
-                    let [near, far] = self.capsules.open(node, work)?;
-                    queue.begin_children(2);
-                    if far.key() <= self.limit {
-                        queue.push(far);
-                    } else {
-                        self.leave(far.key());
-                    }
-                    next = Some(near);
-                }
-            }
-        }
-        let dropped = queue.dropped();
-        self.leave(dropped);
-        // Both may be infinite.
-        Some((dropped < f32::INFINITY && dropped <= self.limit).then_some(Ended::Scratch))
-    }
-
+    #[inline(always)]
     fn leave(&mut self, lower: f32) {
         self.rest = self.rest.min(lower);
     }
 
     /// Stores a segment in its place. The last one leaves if there is no room.
-    fn offer(&mut self, number: u32, narrows: bool, work: &mut Work) -> Option<()> {
-        // A gap is no part of the curve.
-        if self.capsules.curve.segment_at(number).is_none() {
-            return Some(());
-        }
-        let (near, _) = self.capsules.distance(number, work)?;
+    fn visit(&mut self, at: &Visited) -> Option<ControlFlow<()>> {
+        let (number, near) = (at.number, &at.near);
         let (lower, upper) = (down_to_f32(near.lower), up_to_f32(near.upper));
-        let of_input = self.capsules.curve.frame.lower(near.lower);
+        let of_input = self.curve.frame.lower(near.lower);
         if lower > self.limit || of_input > self.distance {
             self.leave(lower);
-            return Some(());
+            return Some(ControlFlow::Continue(()));
         }
         let held = Held { distance_sq: near.distance_sq, lower, upper, number };
         let stored = self.slots.get(..self.stored)?;
         let at = stored.partition_point(|other| Held::of(other).is_before(&held));
-        if self.stored < self.slots.len() {
-            self.stored += 1;
-        } else {
+        if self.stored == self.slots.len() {
             let last = self.slots.get(at..).and_then(<[_]>::last);
             self.leave(last.map_or(lower, |last| Held::of(last).lower));
             self.dropped = self.dropped.saturating_add(1);
         }
-        if let Some(tail) = self.slots.get_mut(at..self.stored)
-            && !tail.is_empty()
-        {
-            tail.rotate_right(1);
-            if let Some(first) = tail.first_mut() {
-                *first = held.slot();
-            }
-        }
-        if narrows && self.stored == self.slots.len() {
+        self.stored = insert_at(self.slots, self.stored, at, held.slot());
+        if self.narrows && self.stored == self.slots.len() {
             self.limit = self.limit.min(Held::of(self.slots.last()?).upper);
         }
-        Some(())
+        Some(ControlFlow::Continue(()))
+    }
+}
+
+impl<'s, 'o> Search<'s, 'o> {
+    fn new(
+        curve: &'s Curve<'s>,
+        slots: &'o mut [CurveNeighbor],
+        [distance, limit]: [f32; 2],
+        narrows: bool,
+    ) -> Self {
+        let rest = f32::INFINITY;
+        Search { curve, slots, stored: 0, dropped: 0, distance, limit, narrows, rest }
+    }
+
+    /// Looks at all segments within the limit. `None`: the curve is unchecked. `Some(None)`:
+    /// nothing is missed.
+    fn run(
+        &mut self,
+        capsules: &Capsules<'_>,
+        queue: SweepQueue<'_>,
+        steps: u32,
+        work: &mut Work,
+    ) -> Option<Option<Ended>> {
+        let dropped = match descend(capsules, queue, steps, work, self, |_, _| false)? {
+            Descended::Steps => return Some(Some(Ended::Steps)),
+            Descended::Dropped(dropped) => dropped,
+        };
+        self.leave(dropped);
+        // Both may be infinite.
+        Some((dropped < f32::INFINITY && dropped <= self.limit).then_some(Ended::Scratch))
     }
 
     /// Writes the answers in the places of what was held. Returns their number. `None`: the curve
     /// is unchecked.
-    fn finish(self, work: &mut Work) -> Option<usize> {
-        let curve = self.capsules.curve;
+    fn finish(self, capsules: &Capsules<'_>, work: &mut Work) -> Option<usize> {
+        let frame = &self.curve.frame;
         // Squares rise. The ends of the intervals may not.
         let mut farthest = 0f32;
         for slot in self.slots.iter_mut().take(self.stored) {
-            let Held { number, .. } = Held::of(slot);
-            let (near, point) = self.capsules.distance(number, work)?;
-            farthest = farthest.max(curve.frame.upper(near.upper));
-            let distance = Interval::new(curve.frame.lower(near.lower), farthest);
-            let (point, segment) = (curve.frame.point(point), curve.segment_at(number)?);
-            *slot = CurveNeighbor::of(distance, point, segment, near.t as f32);
+            let Visited { segment, near, point, .. } =
+                segment(capsules, Held::of(slot).number, work)??;
+            farthest = farthest.max(frame.upper(near.upper));
+            let distance = Interval::new(frame.lower(near.lower), farthest);
+            *slot = CurveNeighbor::of(distance, frame.point(point), segment, near.t as f32);
         }
         Some(self.stored)
     }

@@ -1,13 +1,15 @@
 //! Whether a curve is within a distance.
 
-use super::capsules::{Capsules, Item};
+use super::capsules::Capsules;
+use super::descent::{Descended, SegmentVisitor, Visited, descend};
 use crate::curve::format::{Curve, CurveSegment};
 use crate::num::tolerance::{CURVE_FAR, U64};
-use crate::num::up_to_f32;
+use crate::num::{Real, up_to_f32};
 use crate::query::{
-    Budget, Decided, Ended, QueryError, ScratchEntry, SweepQueue, Taken, Undecided, Verdict,
+    Budget, Decided, Ended, Frame, QueryError, ScratchEntry, SweepQueue, Undecided, Verdict,
     Witness, Work,
 };
+use core::ops::ControlFlow;
 
 impl Curve<'_> {
     /// Whether the input curve is at most `distance` from `point`, both in input units.
@@ -70,46 +72,50 @@ impl Curve<'_> {
 /// `None`: the curve is unchecked.
 fn within(
     capsules: &Capsules<'_>,
-    mut queue: SweepQueue<'_>,
+    queue: SweepQueue<'_>,
     distance: f32,
     steps: u32,
     work: &mut Work,
 ) -> Option<(Verdict, Option<CurveSegment>)> {
-    let Capsules { curve, .. } = capsules;
+    let frame = &capsules.curve.frame;
     // Whatever has a greater bound is certainly farther.
-    let limit = (curve.frame.length(distance) + curve.frame.surface_error()) * (1.0 + 4.0 * U64);
-    let limit = up_to_f32(limit);
-    let mut found = Witness::NONE;
-    let mut next = Some(Capsules::ROOT);
-    while let Some(Taken { entry, least }) = queue.take(next.take(), false) {
-        if entry.key() > limit {
-            if least {
-                break;
-            }
-            continue;
-        }
-        match capsules.item(entry) {
-            Item::Segment(number) => {
-                let Some(segment) = curve.segment_at(number) else { continue };
-                let (near, _) = capsules.distance(number, work)?;
-                if curve.frame.upper(near.upper) <= distance {
-                    found.met = Some(segment);
-                    break;
-                }
-                if curve.frame.lower(near.lower) <= distance {
-                    found.may = Some(segment);
-                }
-            }
-            Item::Node(_) if work.opened >= steps => return Some(found.proof(Some(Ended::Steps))),
-            Item::Node(node) => {
-                let [near, far] = capsules.open(node, work)?;
-                queue.begin_children(2);
-                if far.key() <= limit {
-                    queue.push(far);
-                }
-                next = Some(near);
-            }
-        }
+    let limit = (frame.length(distance) + frame.surface_error()) * (1.0 + 4.0 * U64);
+    let mut search = AnyWithin { frame, distance, limit: up_to_f32(limit), found: Witness::NONE };
+    let cut = match descend(capsules, queue, steps, work, &mut search, |_, _| false)? {
+        Descended::Steps => Some(Ended::Steps),
+        Descended::Dropped(dropped) => (dropped <= search.limit).then_some(Ended::Scratch),
+    };
+    Some(search.found.proof(cut))
+}
+
+/// Looks for one segment that is certainly near enough.
+struct AnyWithin<'a> {
+    frame: &'a Frame,
+    /// Input units.
+    distance: f32,
+    /// What has a greater bound in the local frame is certainly farther.
+    limit: f32,
+    found: Witness<CurveSegment>,
+}
+
+impl SegmentVisitor for AnyWithin<'_> {
+    #[inline(always)]
+    fn is_beyond(&self, lower: f32) -> bool {
+        Real(lower) > Real(self.limit)
     }
-    Some(found.proof((queue.dropped() <= limit).then_some(Ended::Scratch)))
+
+    #[inline(always)]
+    fn leave(&mut self, _: f32) {}
+
+    #[inline(always)]
+    fn visit(&mut self, at: &Visited) -> Option<ControlFlow<()>> {
+        if self.frame.upper(at.near.upper) <= self.distance {
+            self.found.met = Some(at.segment);
+            return Some(ControlFlow::Break(()));
+        }
+        if self.frame.lower(at.near.lower) <= self.distance {
+            self.found.may = Some(at.segment);
+        }
+        Some(ControlFlow::Continue(()))
+    }
 }

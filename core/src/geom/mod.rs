@@ -28,7 +28,7 @@ pub use point_triangle::{PointTriangle, point_triangle};
 pub use pose::Pose;
 pub(crate) use real_vector::RealVector;
 pub(crate) use rows::{Rows, columns, turned};
-pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle};
+pub use segment_triangle::{SegmentTriangle, comes_within, segment_triangle, way_triangle};
 pub use solid_angle::{SeenCorner, SolidAngles};
 pub use support::Support;
 pub use swept_pair::SweptTriangle;

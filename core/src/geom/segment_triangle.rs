@@ -34,8 +34,17 @@ pub struct SegmentTriangle {
 /// Both facings hit. A segment in the triangle's plane hits at their first common point. A segment
 /// of no length hits if its point lies on the triangle. Only a segment that goes through the inside
 /// of the triangle is [certain](SegmentTriangle::is_certain) to hit.
-pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<SegmentTriangle> {
-    let (d, p) = (b - a, v0 - a);
+pub fn segment_triangle(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> {
+    way_triangle([a, b], b - a, corners)
+}
+
+/// The same with the way `d` from end to end. Of a ray `d` is exact, and `b` is rounded.
+pub fn way_triangle(
+    [a, b]: [DVec3; 2],
+    d: DVec3,
+    [v0, v1, v2]: [DVec3; 3],
+) -> Option<SegmentTriangle> {
+    let p = v0 - a;
     let (np, nd) = (norm_1(p), norm_1(d));
     let is_through = match if SOFT_DOUBLE { passage_in_f32(a, d, [v0, v1, v2]) } else { None } {
         Some(passage) => passage,
@@ -52,7 +61,7 @@ pub fn segment_triangle(a: DVec3, b: DVec3, [v0, v1, v2]: [DVec3; 3]) -> Option<
     let across = d.dot(normal);
     let across_error = unit * nd * norm_1(e1) * norm_1(e2);
     if across.abs() <= across_error {
-        return in_plane(a, b, [v0, v1, v2]);
+        return in_plane([a, b], d, [v0, v1, v2]);
     }
     let height = p.dot(normal);
     let height_error = unit * np * norm_1(e1) * norm_1(e2);
@@ -145,8 +154,7 @@ fn side(d: RealVector, x: RealVector, y: RealVector, error: Real) -> i32 {
 }
 
 /// The segment lies in the plane of the triangle up to rounding, or one of them is degenerate.
-fn in_plane(a: DVec3, b: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> {
-    let d = b - a;
+fn in_plane([a, b]: [DVec3; 2], d: DVec3, corners: [DVec3; 3]) -> Option<SegmentTriangle> {
     let [p, q, r] = corners.map(|v| v - a);
     let lengths = norm_1(p) + norm_1(q) + norm_1(r) + norm_1(d);
     let touch = COPLANAR_TOUCH * U64 * lengths;

@@ -20,7 +20,7 @@
 //! | `deformed_hits` | segments against a hull that deforms |
 //! | `deformed_overlap` | whether a hull that deforms meets one at rest |
 //! | `moved_hull` | the hull under any motion of the mesh's vertices |
-//! | `segment_hits` | first hit and all hits by a sweep |
+//! | `segment_hits`, `ray_hits` | first hit and all hits of a segment, and of a ray, by a sweep |
 //! | `overlap/` | a triangle, or another hull hierarchy, against the surface |
 //! | `outer_hits` | hits from outside on the refined hull |
 
@@ -39,6 +39,7 @@ mod moved_hull;
 mod nearest;
 mod outer_hits;
 mod overlap;
+mod ray_hits;
 mod refine;
 mod refined_hull;
 mod segment_hits;

@@ -6,7 +6,7 @@
 
 use super::front::{Candidate, Front, Refinable, Visit};
 use super::geometry::{Geometry, frame};
-use crate::geom::{Clipped, SegmentTriangle, SweptSegment, comes_within, segment_triangle};
+use crate::geom::{Aabb, Clipped, SegmentTriangle, SweptSegment, comes_within, way_triangle};
 use crate::hull::format::{Hull, Instance};
 use crate::num::{SOFT_DOUBLE, down_to_f32, up_to_f32};
 use crate::query::{
@@ -116,23 +116,9 @@ pub(super) fn first_hit<'a>(
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<FirstHit, QueryError> {
-    let mut first = First { best: None, least_lower: f64::INFINITY };
+    let mut first = First::NONE;
     let traced = trace(model, ends, budget, scratch, &mut first)?;
-    let open = f64::from(traced.unopened);
-    let hit = first.best.map(|best| Hit {
-        t: best.meet.t as f32,
-        point: best.point,
-        triangle: model.tables().number(best.instance),
-    });
-    let lower = first.least_lower.min(open);
-    let lower = if lower.is_finite() { down_to_f32(lower.max(0.0)) } else { f32::INFINITY };
-    let upper = first.best.map_or(f32::INFINITY, |Met { meet, .. }| {
-        if meet.is_certain { up_to_f32(meet.t_upper) } else { 1.0 }
-    });
-    let t = Interval { lower, upper };
-    let is_touch = first.best.is_some_and(|best| !best.meet.is_certain);
-    let ended = if is_touch { traced.ended.uncertain() } else { traced.ended };
-    Ok(FirstHit { t, hit, work: traced.work, ended })
+    Ok(first.answer(model.tables(), &traced))
 }
 
 /// [`Hull::all_hits`], of a hull at rest or deformed.
@@ -143,29 +129,50 @@ pub(super) fn all_hits<'a>(
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<AllHits, QueryError> {
-    let mut all = All { model: model.tables(), hits: Hits::new(hits), has_touches: false };
+    let mut all = All::new(model.tables(), hits);
     let traced = trace(model, ends, budget, scratch, &mut all)?;
-    let ended = if all.has_touches { traced.ended.uncertain() } else { traced.ended };
-    Ok(all.hits.answer(traced.work, ended, false))
+    Ok(all.answer(&traced))
 }
 
 /// A triangle that the segment meets.
 #[derive(Clone, Copy)]
-struct Met {
+pub(super) struct Met {
     meet: SegmentTriangle,
     instance: Instance,
     point: [f32; 3],
 }
 
 /// A question's visitor for hits.
-trait Collect {
+pub(super) trait Collect {
     /// Takes a hit. Hits beyond the returned parameter are not wanted any more.
     fn add(&mut self, met: Met) -> f32;
 }
 
-struct First {
+pub(super) struct First {
     best: Option<Met>,
     least_lower: f64,
+}
+
+impl First {
+    pub(super) const NONE: First = First { best: None, least_lower: f64::INFINITY };
+
+    pub(super) fn answer(&self, tables: &Hull<'_>, traced: &Traced) -> FirstHit {
+        let open = f64::from(traced.unopened);
+        let hit = self.best.map(|best| Hit {
+            t: best.meet.t as f32,
+            point: best.point,
+            triangle: tables.number(best.instance),
+        });
+        let lower = self.least_lower.min(open);
+        let lower = if lower.is_finite() { down_to_f32(lower.max(0.0)) } else { f32::INFINITY };
+        let upper = self.best.map_or(f32::INFINITY, |Met { meet, .. }| {
+            if meet.is_certain { up_to_f32(meet.t_upper) } else { 1.0 }
+        });
+        let t = Interval { lower, upper };
+        let is_touch = self.best.is_some_and(|best| !best.meet.is_certain);
+        let ended = if is_touch { traced.ended.uncertain() } else { traced.ended };
+        FirstHit { t, hit, work: traced.work, ended }
+    }
 }
 
 impl Collect for First {
@@ -181,11 +188,22 @@ impl Collect for First {
     }
 }
 
-struct All<'a, 'h> {
+pub(super) struct All<'a, 'h> {
     model: &'h Hull<'a>,
     hits: Hits<'h, TriangleHit>,
     /// Some hits are not proved.
     has_touches: bool,
+}
+
+impl<'a, 'h> All<'a, 'h> {
+    pub(super) fn new(model: &'h Hull<'a>, hits: &'h mut [TriangleHit]) -> Self {
+        All { model, hits: Hits::new(hits), has_touches: false }
+    }
+
+    pub(super) fn answer(&self, traced: &Traced) -> AllHits {
+        let ended = if self.has_touches { traced.ended.uncertain() } else { traced.ended };
+        self.hits.answer(traced.work, ended, false)
+    }
 }
 
 impl Collect for All<'_, '_> {
@@ -199,7 +217,7 @@ impl Collect for All<'_, '_> {
     }
 }
 
-struct Traced {
+pub(super) struct Traced {
     work: Work,
     ended: Ended,
     /// Least parameter of a hit in unopened triangles.
@@ -214,24 +232,67 @@ fn trace<'a, G: Geometry<'a> + Copy, C: Collect>(
     scratch: &mut [ScratchEntry],
     collect: &mut C,
 ) -> Result<Traced, QueryError> {
-    budget.check_with(scratch)?;
-    if !model.tables().has_hull() {
-        return Err(QueryError::NO_HULL);
-    }
-    let frame = frame(model);
-    let surface_error = up_to_f32(model.surface_error());
-    let mut bounds = model.surface_box();
-    if surface_error > 0.0 {
-        bounds.min = (bounds.min - surface_error).map(f32::next_down);
-        bounds.max = (bounds.max + surface_error).map(f32::next_up);
-    }
-    let work = Work { bounds: 1, ..Work::NONE };
-    let missed = Traced { work, ended: Ended::Exact, unopened: f32::INFINITY };
+    let space = Space::of(model, budget, scratch)?;
+    let Space { frame, bounds, .. } = space;
     if SOFT_DOUBLE && frame.is_missed([a, b], &bounds) {
-        return Ok(missed);
+        return Ok(Traced::MISSED);
     }
     let (start, end) = (frame.local_end(a)?, frame.local_end(b)?);
-    let Some(clipped) = bounds.clip(start, end) else { return Ok(missed) };
+    let line = [start, end, end - start];
+    trace_line(model, &space, line, budget, scratch, collect)
+}
+
+/// Where a mesh lies.
+#[derive(Clone, Copy)]
+pub(super) struct Space {
+    pub(super) frame: Frame,
+    surface_error: f32,
+    /// The box of the surface, with its error.
+    pub(super) bounds: Aabb,
+}
+
+impl Space {
+    /// Refuses the budget, the scratch memory, or tables without hulls.
+    #[inline(always)]
+    pub(super) fn of<'a>(
+        model: &impl Geometry<'a>,
+        budget: &Budget,
+        scratch: &[ScratchEntry],
+    ) -> Result<Space, QueryError> {
+        budget.check_with(scratch)?;
+        if !model.tables().has_hull() {
+            return Err(QueryError::NO_HULL);
+        }
+        let surface_error = up_to_f32(model.surface_error());
+        let mut bounds = model.surface_box();
+        if surface_error > 0.0 {
+            bounds.min = (bounds.min - surface_error).map(f32::next_down);
+            bounds.max = (bounds.max + surface_error).map(f32::next_up);
+        }
+        Ok(Space { frame: frame(model), surface_error, bounds })
+    }
+}
+
+impl Traced {
+    /// The box of the surface is missed.
+    const MISSED: Traced = Traced {
+        work: Work { bounds: 1, ..Work::NONE },
+        ended: Ended::Exact,
+        unopened: f32::INFINITY,
+    };
+}
+
+/// Collects the hits of a segment: its start, its end, and the way between them.
+#[inline(always)]
+pub(super) fn trace_line<'a, G: Geometry<'a> + Copy, C: Collect>(
+    model: &G,
+    &Space { frame, surface_error, bounds }: &Space,
+    [start, end, way]: [DVec3; 3],
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+    collect: &mut C,
+) -> Result<Traced, QueryError> {
+    let Some(clipped) = bounds.clip(start, end) else { return Ok(Traced::MISSED) };
     let mut hull = model.vertex_box();
     hull.min = hull.min.min(bounds.min);
     hull.max = hull.max.max(bounds.max);
@@ -239,6 +300,7 @@ fn trace<'a, G: Geometry<'a> + Copy, C: Collect>(
         frame,
         start,
         end,
+        way,
         segment: SweptSegment::new(&clipped, &hull),
         clipped,
         surface_error,
@@ -281,6 +343,8 @@ struct Along<'c, C: Collect> {
     frame: Frame,
     start: DVec3,
     end: DVec3,
+    /// From `start` to `end`. Of a ray it is exact, and `end` is rounded.
+    way: DVec3,
     segment: SweptSegment,
     clipped: Clipped,
     surface_error: f32,
@@ -316,7 +380,7 @@ impl<C: Collect> Along<'_, C> {
     fn meet(&mut self, candidate: &Candidate, key: f32) {
         self.exact += 1;
         let corners = candidate.corners.map(|v| v.as_dvec3());
-        let mut met = segment_triangle(self.start, self.end, corners);
+        let mut met = way_triangle([self.start, self.end], self.way, corners);
         if self.surface_error > 0.0 {
             // The input surface may lie up to `surface_error` from the stored one. So a hit may be
             // a miss, a near miss a hit, and the parameter is uncertain by as much.
@@ -346,7 +410,7 @@ impl<C: Collect> Along<'_, C> {
     }
 
     fn add(&mut self, meet: SegmentTriangle, instance: Instance) {
-        let point = self.frame.point(self.start + (self.end - self.start) * meet.t);
+        let point = self.frame.point(self.start + self.way * meet.t);
         self.limit = self.collect.add(Met { meet, instance, point });
     }
 }

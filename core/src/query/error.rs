@@ -10,6 +10,8 @@ use crate::format::layout::BuildFor;
 pub enum QueryError {
     /// A coordinate of the query is NaN or infinite.
     NotFinite,
+    /// The direction of a ray is zero.
+    NoDirection,
     /// A pair names a model that the scene does not have, or one model twice.
     NoModel,
     /// A [`Joint`](crate::Joint) names a parent that is not before it, or a place that is not given;
@@ -110,6 +112,7 @@ impl core::fmt::Display for QueryError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
             QueryError::NotFinite => "a coordinate of the query is NaN or infinite",
+            QueryError::NoDirection => "the direction of a ray is zero",
             QueryError::NoModel => "a pair names a model that the scene lacks, or one model twice",
             QueryError::NoJoint => {
                 "a joint's parent is not before it, its place is not given, or poses are missing"

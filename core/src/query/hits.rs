@@ -94,6 +94,12 @@ pub struct AllHits {
     pub ended: Ended,
 }
 
+impl AllHits {
+    /// No triangle is met.
+    pub(crate) const NONE: AllHits =
+        AllHits { stored: 0, dropped: 0, is_complete: true, work: Work::NONE, ended: Ended::Exact };
+}
+
 /// What the caller's slice of hits holds.
 pub(crate) trait Listed: Copy {
     fn hit(&self) -> &Hit;
@@ -109,6 +115,23 @@ impl Listed for TriangleHit {
     fn hit(&self) -> &Hit {
         &self.hit
     }
+}
+
+/// Puts an element at a place of a slice that is kept in order, of which `stored` are in use. If
+/// all are, the last one leaves: the new one, where the place is behind them. Returns how many are
+/// in use then.
+#[inline(always)]
+pub(crate) fn insert_at<T>(slots: &mut [T], stored: usize, at: usize, element: T) -> usize {
+    let stored = if stored < slots.len() { stored + 1 } else { stored };
+    if let Some(tail) = slots.get_mut(at..stored)
+        && !tail.is_empty()
+    {
+        tail.rotate_right(1);
+        if let Some(first) = tail.first_mut() {
+            *first = element;
+        }
+    }
+    stored
 }
 
 /// The caller's slice of hits, kept by rising `t`, then triangle.
@@ -131,19 +154,8 @@ impl<'a, H: Listed> Hits<'a, H> {
             x.t > hit.t || (x.t == hit.t && x.triangle > hit.triangle)
         };
         let at = self.slots.iter().take(self.stored).position(after).unwrap_or(self.stored);
-        if self.stored < self.slots.len() {
-            self.stored += 1;
-        } else {
-            self.dropped += 1;
-        }
-        if let Some(tail) = self.slots.get_mut(at..self.stored)
-            && !tail.is_empty()
-        {
-            tail.rotate_right(1);
-            if let Some(slot) = tail.first_mut() {
-                *slot = listed;
-            }
-        }
+        self.dropped += u32::from(self.stored == self.slots.len());
+        self.stored = insert_at(self.slots, self.stored, at, listed);
     }
 }
 

@@ -30,6 +30,7 @@ mod overlap;
 mod pair_distance;
 mod penetration;
 mod pose;
+mod ray;
 mod scratch;
 mod solid;
 mod sweep_queue;
@@ -42,8 +43,8 @@ pub use decided::Decided;
 pub(crate) use decided::Witness;
 pub use error::QueryError;
 pub(crate) use frame::Frame;
-pub(crate) use hits::Hits;
 pub use hits::{AllHits, FirstHit, Hit, TriangleHit};
+pub(crate) use hits::{Hits, insert_at};
 pub use neighbors::{AllWithin, KNearest};
 pub use overlap::{AllOverlaps, TrianglePair};
 pub(crate) use overlap::{AllPairs, PairVisitor};
@@ -55,8 +56,9 @@ pub(crate) use pose::{
     skew_of,
 };
 pub use pose::{Joint, JointAxis, JointKind, Motion, PosedPoint, RoundedPose, link_poses};
+pub(crate) use ray::{Behind, Ray};
 pub use scratch::{Scratch, ScratchEntry};
 pub use solid::{Solid, SolidDistance};
-pub(crate) use sweep_queue::{SweepQueue, Taken, before};
+pub(crate) use sweep_queue::{SweepQueue, Taken, before, bound_of, key_of};
 pub use verdict::{Side, Undecided, Verdict};
 pub use work::Work;

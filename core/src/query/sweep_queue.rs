@@ -9,13 +9,26 @@
 //! early.
 
 use super::scratch::ScratchEntry;
-use crate::num::Real;
+use crate::num::tolerance::SUMMED;
+use crate::num::{Real, down_to_f32};
 
 /// Total order by key, then node, so that the order of visits does not depend on the heap's
 /// history.
 pub(crate) fn before(a: &ScratchEntry, b: &ScratchEntry) -> bool {
     let (x, y) = (Real(a.key()), Real(b.key()));
     x < y || (x == y && a.node() < b.node())
+}
+
+/// A bound as a key that outlasts a motion: the bound plus the path of the point until then,
+/// rounded down. The key less the path until now is a lower bound at any later time. So no key is
+/// changed when the point moves.
+pub(crate) fn key_of(bound: f64, moved: f64) -> f32 {
+    down_to_f32((bound + moved) * (2.0 - SUMMED))
+}
+
+/// A key as a bound: the inverse of [`key_of`].
+pub(crate) fn bound_of(key: f32, moved: f64) -> f64 {
+    (f64::from(key) - moved).max(0.0)
 }
 
 /// An entry that left the queue.
@@ -186,6 +199,7 @@ impl<'a> SweepQueue<'a> {
         }
     }
 
+    #[inline(always)]
     fn push_heap(&mut self, entry: ScratchEntry) {
         let mut at = self.heap;
         self.heap += 1;
@@ -202,6 +216,8 @@ impl<'a> SweepQueue<'a> {
     }
 
     /// The entry of the heap with the least key.
+    // Two loops call it, and a call for each entry is dear on boards.
+    #[inline(always)]
     pub(crate) fn pop_heap(&mut self) -> Option<ScratchEntry> {
         if self.heap == 0 {
             return None;

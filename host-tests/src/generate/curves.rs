@@ -64,6 +64,16 @@ pub fn csv(polylines: &[Polyline]) -> String {
     "x,y,z\n".to_owned() + &polylines.iter().map(text).collect::<Vec<_>>().join("\n")
 }
 
+/// CSV of zones in the plane, as autopilots list them: a header, then blank lines between zones.
+#[must_use]
+pub fn zones_csv(zones: &[Polyline]) -> String {
+    let text = |zone: &Polyline| {
+        let kind = if zone.zone == Zone::Exclusion { "exclusion" } else { "inclusion" };
+        zone.points.iter().map(|[x, y, _]| format!("{x},{y},{kind}\n")).collect::<String>()
+    };
+    "x,y,zone\n".to_owned() + &zones.iter().map(text).collect::<Vec<_>>().join("\n")
+}
+
 /// A tool path of this many segments: rows over a wavy surface, there and back.
 #[must_use]
 pub fn tool_path(segments: usize) -> Polyline {

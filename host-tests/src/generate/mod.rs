@@ -15,6 +15,7 @@ pub mod fields;
 pub mod defects;
 mod extrude;
 pub mod fixtures;
+pub mod rays;
 mod rng;
 pub mod scenes;
 mod solids;

@@ -125,6 +125,8 @@ kinds! {
     FrameOverlap = 43, "frame_overlap";
     /// Whether the hull at rest, moved, meets itself under a free motion.
     MovedOverlap = 44, "moved_overlap";
+    /// First hit, any hit and all hits of a ray through the doubled box.
+    Ray = 49, "ray";
     /// Closest point in f64 from near the surface.
     ClosestPrecise = 42, "closest_precise";
     /// The distance of a point of a field, in input units.

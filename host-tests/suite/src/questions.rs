@@ -101,6 +101,7 @@ pub const QUESTIONS: &[Question] = &[
         .with_descents(1),
     question("any hit", "segment", "tree::sight::any_hit", &[Kind::AnyHit]).with_descents(1),
     question("all hits", "segment", "tree::sight::all_hits", &[Kind::AllHits]).with_descents(1),
+    question("ray", "segment", "tree::sight::ray", &[Kind::Ray]).with_descents(1),
     question("overlap", "segment", "tree::meeting::overlap", &[Kind::Overlap])
         .with_variants(&[Kind::AllOverlaps]),
     question("distance of two models", "segment", "apart::distance", &[Kind::PairDistance]),
@@ -127,6 +128,7 @@ pub const QUESTIONS: &[Question] = &[
         &[Kind::ClosestFar, Kind::ClosestNear, Kind::ClosestPath],
     ),
     question("first hit of a hull", "hull", "hull::first_hit", &[Kind::FirstHit]),
+    question("ray of a hull", "hull", "hull::ray", &[Kind::Ray]),
     question("outer hits", "hull", "hull::outer_hits", &[Kind::OuterHits]),
     question("refine", "hull", "hull::refine", &[Kind::Refine]),
     question("sweep", "hull", "hull_moving::sweep", &[Kind::Sweep]),
@@ -146,6 +148,7 @@ pub const QUESTIONS: &[Question] = &[
         "curve::closest",
         &[Kind::ClosestFar, Kind::ClosestNear],
     ),
+    question("sweep of curves", "curve", "curve::sweep", &[Kind::Sweep]),
     question("nearest segments of curves", "curve", "curve::nearest", &[Kind::Nearest]),
     question("all within of curves", "curve", "curve::all_within", &[Kind::AllWithin]),
     question("signed distance of curves", "curve", "curve::signed", &[Kind::Signed]),

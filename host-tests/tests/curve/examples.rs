@@ -1,6 +1,7 @@
 //! What the README of the example `fence` promises is true of its zones, by the exact oracle.
 //! `cargo xtask test` shows that the images print what is promised.
 
+use meshsweep::curve::Polyline;
 use meshsweep_host_tests::generate::curves::zones;
 use meshsweep_host_tests::oracle::{distance_to_segments, winding_about};
 use std::path::Path;
@@ -17,13 +18,17 @@ const LEGS: [[[i32; 2]; 2]; 5] = [
 /// The distance to keep, in metres.
 const KEEP: f64 = 28.0;
 
+/// How far the line of a zone is.
+fn distance_to_zone([x, y]: [f32; 2], Polyline { points, .. }: &Polyline) -> f64 {
+    let ends = points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]);
+    distance_to_segments([x, y, 0.0], ends).lower
+}
+
 /// How far the vehicle is from the nearest line, in metres, and whether it is allowed there.
 fn truth([x, y]: [f32; 2]) -> (f64, bool) {
     let zones = zones();
-    let ends = zones.iter().flat_map(|zone| {
-        zone.points.iter().zip(zone.points.iter().cycle().skip(1)).map(|(a, b)| [*a, *b])
-    });
-    let distance = distance_to_segments([x, y, 0.0], ends).lower;
+    let distances = zones.iter().map(|zone| distance_to_zone([x, y], zone));
+    let distance = distances.fold(f64::INFINITY, f64::min);
     let is_in = |zone: usize| winding_about([x, y], &zones[zone].points) != Some(0);
     (distance, is_in(0) && !is_in(1) && !is_in(2))
 }
@@ -53,6 +58,9 @@ fn the_vehicle_brakes_where_the_line_is_as_near_as_promised_and_not_before() {
             assert!(is_allowed && keeps(0..ended / 20), "{leg}");
             assert!(distance * 1000.0 >= promised && distance < KEEP + 0.02, "{leg} {distance}");
             assert!(distance * 1000.0 < promised + 20.0, "{leg} {distance}");
+            let nearest = number("the nearest line is of zone ").expect("told");
+            let of_zone = distance_to_zone(place(ended / 20), &zones()[nearest as usize]);
+            assert!(of_zone <= distance * (1.0 + 1e-12), "{leg} {of_zone}");
         } else if let Some(ended) = number("is flown to its end in ms: ") {
             assert!(keeps(0..ended / 20), "{leg}");
         } else {

@@ -3,6 +3,7 @@
 mod bytes;
 mod closest;
 mod examples;
+mod kept_sweep;
 mod neighbors;
 mod scenes;
 mod signed;

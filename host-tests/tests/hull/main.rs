@@ -12,6 +12,7 @@ mod kept_sweep;
 mod open;
 mod outer_hits;
 mod overlap;
+mod rays;
 mod refined;
 mod scenes;
 mod segments;

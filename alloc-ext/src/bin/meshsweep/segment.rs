@@ -1,4 +1,4 @@
-//! `meshsweep segment`: segments in, first hits or all hits out.
+//! `meshsweep segment`: segments or rays in, first hits or all hits out.
 //!
 //! `undecided` means of a first hit: the segment is proved clear before `t`, and no more is
 //! certain. Of one of all hits it means: the stored triangle is hit there, and the mesh's may be.
@@ -41,7 +41,7 @@ pub fn run(args: &SegmentArgs) -> Result<(), Failure> {
     };
     let question = |header| {
         let segments = Queries::read(&args.segments)?;
-        let limit = Some(farthest(&engine.rest()));
+        let limit = Some(farthest(&engine.rest(), args.rays));
         Ok(Question { limit, ..Question::new(header, segments, search) })
     };
     if args.all {
@@ -76,19 +76,20 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// How far away the ends of segments may be, in the mesh's unit.
-fn farthest(engine: &Engine<'_>) -> String {
+/// How far away the ends of segments, or the origins of rays, may be, in the mesh's unit.
+fn farthest(engine: &Engine<'_>, is_ray: bool) -> String {
+    let part = if is_ray { 0.25 } else { 1.0 };
     match engine {
         Engine::Tree(tree) => {
             let unit = exp2(tree.header().grid_exponent + tree.scale_exponent());
-            let farthest = f64::from(tolerance::BVH_FAR) * unit;
+            let farthest = part * f64::from(tolerance::BVH_FAR) * unit;
             format!(
                 "the ways along x, y and z to the farthest corner of its box may add up to about \
                  {farthest:.1e}"
             )
         }
         Engine::Hull(hull) => {
-            let farthest = tolerance::HULL_FAR * hull.scale();
+            let farthest = part * tolerance::HULL_FAR * hull.scale();
             format!("a coordinate may be about {farthest:.1e} at most")
         }
     }
@@ -106,8 +107,14 @@ fn ask_first(
         |segment, scratch| {
             let [a, b] = ends(segment);
             match &engine {
+                Asked::Rest(Engine::Tree(tree)) if args.rays => {
+                    tree.first_hit_of_ray(a, b, facing, budget, scratch)
+                }
                 Asked::Rest(Engine::Tree(tree)) => {
                     FastBvh::new(*tree).first_hit(a, b, facing, budget, scratch)
+                }
+                Asked::Rest(Engine::Hull(hull)) if args.rays => {
+                    hull.first_hit_of_ray(a, b, budget, scratch)
                 }
                 Asked::Rest(Engine::Hull(hull)) => hull.first_hit(a, b, budget, scratch),
                 Asked::Frame(hull, ..) => hull.first_hit(a, b, budget, scratch),
@@ -116,7 +123,7 @@ fn ask_first(
         |out, _, segment, found| match found.hit {
             _ if found.is_clear() => write_clear(out, found.work),
             Some(hit) if found.ended == Ended::Exact => write_hit(out, "yes", hit, found.work),
-            _ => write_undecided(out, segment, found.t.lower, None, found.work),
+            _ => write_undecided(out, line(segment, args.rays), found.t.lower, None, found.work),
         },
     )
 }
@@ -139,6 +146,12 @@ fn ask_all(
                     &mut buffer,
                     TriangleHit::EMPTY,
                     |hits| match &engine {
+                        Asked::Rest(Engine::Tree(tree)) if args.rays => {
+                            tree.all_hits_of_ray(a, b, facing, hits, budget, &mut scratch)
+                        }
+                        Asked::Rest(Engine::Hull(hull)) if args.rays => {
+                            hull.all_hits_of_ray(a, b, hits, budget, &mut scratch)
+                        }
                         Asked::Rest(Engine::Tree(tree)) => {
                             tree.all_hits(a, b, facing, hits, budget, &mut scratch)
                         }
@@ -153,6 +166,7 @@ fn ask_all(
             }
         },
         |out, query, segment, &Answer { found: (is_complete, ref hits), work, .. }| {
+            let line = line(segment, args.rays);
             for &TriangleHit { hit, is_certain } in hits {
                 write!(out, "{query},")?;
                 if is_certain {
@@ -160,12 +174,12 @@ fn ask_all(
                 } else {
                     // The surface may be from here on: `t` was rounded to nearest.
                     let from = hit.t.next_down().max(0.0);
-                    write_undecided(out, segment, from, hit.triangle, work)?;
+                    write_undecided(out, line, from, hit.triangle, work)?;
                 }
             }
             if !is_complete {
                 write!(out, "{query},")?;
-                write_undecided(out, segment, 0.0, None, work)
+                write_undecided(out, line, 0.0, None, work)
             } else if hits.is_empty() {
                 write!(out, "{query},")?;
                 write_clear(out, work)
@@ -178,6 +192,12 @@ fn ask_all(
 
 fn ends([ax, ay, az, bx, by, bz]: [f32; 6]) -> [[f32; 3]; 2] {
     [[ax, ay, az], [bx, by, bz]]
+}
+
+/// A start and the way for each unit of the parameter.
+fn line(query: &[f32; 6], is_ray: bool) -> [[f64; 3]; 2] {
+    let [a, b] = ends(*query).map(|end| end.map(f64::from));
+    [a, if is_ray { b } else { core::array::from_fn(|k| b[k] - a[k]) }]
 }
 
 fn write_clear(out: &mut dyn Write, work: Work) -> io::Result<()> {
@@ -195,12 +215,11 @@ fn write_hit(out: &mut dyn Write, word: &str, hit: Hit, work: Work) -> io::Resul
 /// The surface may be met from the parameter `t` on.
 fn write_undecided(
     out: &mut dyn Write,
-    segment: &[f32; 6],
+    [start, way]: [[f64; 3]; 2],
     t: f32,
     triangle: Option<u32>,
     work: Work,
 ) -> io::Result<()> {
-    let [a, b] = ends(*segment).map(|end| end.map(f64::from));
-    let point = core::array::from_fn(|k| (a[k] + (b[k] - a[k]) * f64::from(t)) as f32);
+    let point = core::array::from_fn(|k| (start[k] + way[k] * f64::from(t)) as f32);
     write_hit(out, "undecided", Hit { t, point, triangle }, work)
 }

@@ -58,7 +58,7 @@ fn fly(fence: &Curve<'_>, number: usize, leg: &Leg) -> Result<u32, QueryError> {
         if left < KEEP {
             println!("  brakes after ms: {}", tick * PERIOD);
             println!("  millimetres left, for certain: {}", (left * 1000.0) as u32);
-            println!("  the nearest line is of zone {}", found.closest.segment.polyline + 1);
+            println!("  the nearest line is of zone {}", found.closest.segment.polyline);
             return Ok(worst);
         }
         [x, y] = [x + leg.step[0], y + leg.step[1]];

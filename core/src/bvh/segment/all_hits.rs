@@ -48,30 +48,42 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<AllHits, QueryError> {
-        let mut work = Work::default();
-        let hits = Hits::new(hits);
         let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
-            return Ok(hits.answer(work, Ended::Exact, false));
+            return Ok(AllHits::NONE);
         };
-        let query = SegmentQuery::new(self, &start);
-        let collector = AllCrossings {
-            tree: self,
-            query: &query,
-            hits,
-            undecided: false,
-            lacks: false,
-            places: [0.0; WIDTH],
-        };
-        let flagged = compiled_flagged();
-        let mut visitor = SegmentVisitor { query: &query, facing, flagged, collector };
-        let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-        let ended = match descent.ended() {
-            Ended::Exact if visitor.collector.undecided => Ended::Resolution,
-            ended => ended,
-        };
-        let AllCrossings { hits, lacks, .. } = visitor.collector;
-        Ok(hits.answer(work, ended, lacks))
+        along(self, &start, facing, hits, &budget, scratch)
     }
+}
+
+/// The answer about a line from its start.
+#[inline(always)]
+pub(super) fn along(
+    tree: &Bvh<'_>,
+    start: &SegmentStart,
+    facing: Facing,
+    hits: &mut [TriangleHit],
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<AllHits, QueryError> {
+    let mut work = Work::default();
+    let query = SegmentQuery::new(tree, start);
+    let collector = AllCrossings {
+        tree,
+        query: &query,
+        hits: Hits::new(hits),
+        undecided: false,
+        lacks: false,
+        places: [0.0; WIDTH],
+    };
+    let flagged = compiled_flagged();
+    let mut visitor = SegmentVisitor { query: &query, facing, flagged, collector };
+    let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+    let ended = match descent.ended() {
+        Ended::Exact if visitor.collector.undecided => Ended::Resolution,
+        ended => ended,
+    };
+    let AllCrossings { hits, lacks, .. } = visitor.collector;
+    Ok(hits.answer(work, ended, lacks))
 }
 
 struct AllCrossings<'a> {

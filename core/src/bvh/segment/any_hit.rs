@@ -15,7 +15,7 @@ use crate::bvh::tree::triangle_at::TriangleAt;
 use crate::geom::fan::Crossing;
 #[cfg(meshsweep_avx2)]
 use crate::geom::fan::WIDTH;
-use crate::query::{Budget, Decided, QueryError, ScratchEntry, Verdict, Witness, Work};
+use crate::query::{Budget, Decided, QueryError, ScratchEntry, Witness, Work};
 
 impl Bvh<'_> {
     /// Whether the closed segment `a b` (input units) meets the surface. It ends at the first
@@ -49,17 +49,29 @@ impl Bvh<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<()>, QueryError> {
-        let mut work = Work::default();
         let Some(start) = SegmentStart::find(self, [a, b], &budget, scratch)? else {
-            return Ok(Decided { verdict: Verdict::No, witness: None, work });
+            return Ok(Decided::CLEAR);
         };
-        let query = SegmentQuery::new(self, &start);
-        let collector = AnyCrossing::new(&query);
-        let flagged = compiled_flagged();
-        let mut visitor = SegmentVisitor { query: &query, facing, flagged, collector };
-        let descent = descend(self, &query, budget.steps, scratch, &mut visitor, &mut work)?;
-        Ok(visitor.collector.answer(descent, work))
+        along(self, &start, facing, &budget, scratch)
     }
+}
+
+/// The answer about a line from its start.
+#[inline(always)]
+pub(super) fn along(
+    tree: &Bvh<'_>,
+    start: &SegmentStart,
+    facing: Facing,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<Decided<()>, QueryError> {
+    let mut work = Work::default();
+    let query = SegmentQuery::new(tree, start);
+    let collector = AnyCrossing::new(&query);
+    let flagged = compiled_flagged();
+    let mut visitor = SegmentVisitor { query: &query, facing, flagged, collector };
+    let descent = descend(tree, &query, budget.steps, scratch, &mut visitor, &mut work)?;
+    Ok(visitor.collector.answer(descent, work))
 }
 
 /// The answer, if neither steps nor memory may end the search. Without registers of 256 bits the
@@ -83,9 +95,7 @@ pub(crate) fn any_hit_by_blocks(
     }
     let start = match SegmentStart::find(tree, ends, budget, scratch) {
         Ok(Some(start)) => start,
-        Ok(None) => {
-            return Some(Ok(Decided { verdict: Verdict::No, witness: None, work: Work::NONE }));
-        }
+        Ok(None) => return Some(Ok(Decided::CLEAR)),
         Err(error) => return Some(Err(error)),
     };
     let query = SegmentQuery::new(tree, &start);

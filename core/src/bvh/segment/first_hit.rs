@@ -107,7 +107,19 @@ fn by_entries(
     let Some(start) = SegmentStart::find(tree, ends, budget, scratch)? else {
         return Ok(FirstHit::CLEAR);
     };
-    let query = SegmentQuery::new(tree, &start);
+    along(tree, &start, facing, budget, scratch)
+}
+
+/// The answer about a line from its start.
+#[inline(always)]
+pub(super) fn along(
+    tree: &Bvh<'_>,
+    start: &SegmentStart,
+    facing: Facing,
+    budget: &Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<FirstHit, QueryError> {
+    let query = SegmentQuery::new(tree, start);
     let mut work = Work::default();
     let collector = FirstCrossing::new(tree, &query);
     let flagged = compiled_flagged();

@@ -3,6 +3,7 @@
 //! | file | owns |
 //! | --- | --- |
 //! | `first_hit`, `any_hit`, `all_hits` | the questions |
+//! | `ray` | the same questions about a ray |
 //! | `query` | a segment in grid units, ready for the descent |
 //! | `start` | where a segment's line begins |
 //! | `model_box/` | a segment against the model's box |
@@ -17,6 +18,7 @@ pub(super) mod first_hit;
 pub(super) mod leaf;
 mod model_box;
 pub(super) mod query;
+mod ray;
 mod start;
 
 pub use leaf::Facing;

@@ -310,13 +310,10 @@ impl Curve<'_> {
 
     /// The segment that begins at a point. `None` for a gap.
     pub(crate) fn segment_at(&self, point: u32) -> Option<CurveSegment> {
-        let start = |record: &[u8; POLYLINE_BYTES]| u32::from_le_bytes(*record) & !POLYLINE_CLOSED;
-        let after = self.polylines.partition_point(|record| start(record) <= point);
-        if self.polylines.get(after).is_some_and(|next| start(next) == point.wrapping_add(1)) {
-            return None;
-        }
-        let polyline = after.checked_sub(1)?;
-        let first = start(self.polylines.get(polyline)?);
-        Some(CurveSegment { polyline: polyline as u32, segment: point.checked_sub(first)? })
+        let polyline = self.polyline_of(point)?;
+        let [first, last] = self.ends(polyline)?;
+        let segment =
+            CurveSegment { polyline: polyline as u32, segment: point.checked_sub(first)? };
+        (point < last).then_some(segment)
     }
 }

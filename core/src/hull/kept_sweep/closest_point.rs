@@ -1,6 +1,6 @@
 //! The closest point of a sweep that is kept.
 
-use super::enqueue::{Enqueuer, bound_of, key_of};
+use super::enqueue::Enqueuer;
 use super::safe_motion::{SAFE_PAUSE, SAFE_STEPS, SAFE_TRIANGLES};
 use super::{QueueHolds, Sweep};
 use crate::hull::format::Instance;
@@ -8,7 +8,7 @@ use crate::hull::front::Refinable;
 use crate::hull::geometry::Geometry;
 use crate::num::down_to_f32;
 use crate::num::tolerance::{HULL_FAR, SUMMED, SWEEP_LEAST};
-use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work};
+use crate::query::{Budget, ClosestPoint, Ended, QueryError, ScratchEntry, Work, bound_of, key_of};
 
 impl<'a, G: Geometry<'a>> Sweep<'_, G> {
     /// Closest point of the surface: the same triangle as

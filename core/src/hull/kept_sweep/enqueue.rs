@@ -1,13 +1,8 @@
 //! Triangles on their way into the queue of a sweep.
-//!
-//! A key is a lower bound of the distance, plus the path of the point until then. The key less the
-//! path until now is a lower bound at any later time. So no key is changed when the point moves.
 
 use crate::hull::front::{Candidate, Visit};
 use crate::hull::nearest::Nearest;
-use crate::num::down_to_f32;
-use crate::num::tolerance::SUMMED;
-use crate::query::{ScratchEntry, SweepQueue};
+use crate::query::{ScratchEntry, SweepQueue, key_of};
 
 /// Puts triangles into the queue.
 pub(super) struct Enqueuer {
@@ -41,16 +36,6 @@ impl Visit for Enqueuer {
             }
         }
     }
-}
-
-/// A bound as a key: the inverse of [`bound_of`], rounded down.
-pub(super) fn key_of(bound: f64, moved: f64) -> f32 {
-    down_to_f32((bound + moved) * (2.0 - SUMMED))
-}
-
-/// A key as a bound: the inverse of [`key_of`].
-pub(super) fn bound_of(key: f32, moved: f64) -> f64 {
-    (f64::from(key) - moved).max(0.0)
 }
 
 impl Enqueuer {

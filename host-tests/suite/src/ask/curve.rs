@@ -48,6 +48,10 @@ impl<'t> Subject<'t> for Curve<'t> {
         Nearest => nearest(self, place.far(), scratch, to);
         AllWithin => all_within(self, place.far(), place.distance(), scratch, to);
         Signed => signed(self, place.far(), scratch, to);
+        Sweep => {
+            let from = place.far();
+            sweep(self, [from, place.near(from), place.far()], scratch, to);
+        };
     }
 }
 
@@ -119,6 +123,25 @@ pub fn stopped(
     for (budget, entries) in [(tolerant, ENTRIES), (brief, 1)] {
         let queue = scratch.get_mut(..entries).unwrap_or_default();
         to.answer(|| curve.closest_point(p, budget, queue), closest_point);
+    }
+}
+
+/// The closest point by a search that is kept: in a few steps, and after two motions.
+#[inline(never)]
+pub fn sweep(
+    curve: &Curve<'_>,
+    [p, near, far]: [Point; 3],
+    scratch: &mut Scratch,
+    to: &mut Asked<'_, impl Observer>,
+) {
+    let Ok(mut sweep) = curve.sweep(p, scratch) else { return to.fold.word(u32::MAX) };
+    for (point, steps) in [(p, 9), (p, u32::MAX), (near, u32::MAX), (far, u32::MAX)] {
+        let budget = Budget::EXACT.with_steps(steps);
+        let ask = || {
+            sweep.move_to(point)?;
+            sweep.closest_point(budget)
+        };
+        to.answer(ask, closest_point);
     }
 }
 

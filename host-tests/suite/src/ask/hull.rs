@@ -80,6 +80,7 @@ impl<'t> Subject<'t> for Model<'t> {
         };
         FirstHit => first_hit(self, place.segment(), scratch, observer, fold);
         AllHits => all_hits(self, place.segment(), scratch, observer, fold);
+        Ray => ray(self, place.segment(), scratch, observer, fold);
         OuterHits => outer_hits(self, place.segment(), scratch, observer, fold);
         Refine => {
             let (focus, error) = focus(self, place);
@@ -156,6 +157,23 @@ pub fn first_hit(
     fold: &mut Fold,
 ) {
     match timed(observer, || model.hull.first_hit(a, b, Budget::EXACT, &mut scratch.queue)) {
+        Ok(answer) => super::segment_hit(fold, &answer),
+        Err(error) => super::refusal(fold, error),
+    }
+}
+
+/// First point of the ray through two points on the surface.
+#[inline(never)]
+pub fn ray(
+    model: &Model<'_>,
+    [from, through]: [[f32; 3]; 2],
+    scratch: &mut Scratch<'_>,
+    observer: &mut impl Observer,
+    fold: &mut Fold,
+) {
+    let ([x, y, z], [a, b, c]) = (through, from);
+    let (way, queue) = ([x - a, y - b, z - c], &mut scratch.queue);
+    match timed(observer, || model.hull.first_hit_of_ray(from, way, Budget::EXACT, queue)) {
         Ok(answer) => super::segment_hit(fold, &answer),
         Err(error) => super::refusal(fold, error),
     }

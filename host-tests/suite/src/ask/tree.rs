@@ -18,7 +18,7 @@ pub use distance::{
     all_within, closest, coherent, follow, is_within, nearest, precise, signed, stopped,
 };
 pub use meeting::{all_overlaps, overlap, pose};
-pub use sight::{all_hits, any_hit, cull, facing, first_hit};
+pub use sight::{all_hits, any_hit, cull, facing, first_hit, ray};
 
 /// Entries of the stack.
 const STACK: usize = 64;
@@ -103,6 +103,7 @@ impl<'t> Subject<'t> for Bvh<'t> {
         Facing => facing(self, place.segment(), scratch, to);
         AnyHit => any_hit(self, place.segment(), scratch, to);
         AllHits => all_hits(self, place.segment(), scratch, to);
+        Ray => ray(self, place.segment(), scratch, to);
         Cull => cull(self, place.far(), scratch, to);
         Overlap => overlap(self, pose(place.motion()), scratch, to);
         AllOverlaps => all_overlaps(self, pose(place.motion()), scratch, to);

@@ -2,6 +2,7 @@
 
 mod aimed;
 mod all_hits;
+mod rays;
 pub mod scenes;
 mod settled;
 mod soups;

@@ -198,6 +198,9 @@ pub struct SegmentArgs {
     /// first column.
     #[arg(long)]
     pub all: bool,
+    /// Queries are rays, which have no end: ox,oy,oz and a direction dx,dy,dz each
+    #[arg(long, conflicts_with_all = ["triboxes", "frame"])]
+    pub rays: bool,
     /// Only hits of fronts or of backs, on the box tree [default: both]
     ///
     /// Seen from its front a triangle's corners run counter-clockwise.

@@ -50,7 +50,7 @@ pub(super) struct SegmentAndBox {
 
 impl SegmentAndBox {
     #[inline(always)]
-    fn new(tree: &Bvh<'_>, [a, b]: [[f32; 3]; 2]) -> Self {
+    pub(super) fn new(tree: &Bvh<'_>, [a, b]: [[f32; 3]; 2]) -> Self {
         let units = tree.units();
         let (low, high) = tree.grid_bounds();
         SegmentAndBox { a: units.inward_point(a), b: units.inward_point(b), low, high }

@@ -62,6 +62,26 @@ pub fn all_hits(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_
     }
 }
 
+/// What a ray through two points meets: first, any, and all.
+#[inline(never)]
+pub fn ray(tree: &Bvh<'_>, ab: Ends, s: &mut Scratch<'_>, to: &mut Asked<'_, impl Observer>) {
+    let Scratch { stack, hits, .. } = s;
+    let [from, through] = ab;
+    let ([x, y, z], [a, b, c]) = (through, from);
+    let (way, both) = ([x - a, y - b, z - c], Facing::Both);
+    let (budget, stack) = to.terms(Budget::EXACT, stack);
+    to.answer(|| tree.first_hit_of_ray(from, way, both, budget, stack), ask::segment_hit);
+    to.answer(
+        || tree.any_hit_of_ray(from, way, both, budget, stack),
+        |fold, answer| ask::verdict(fold, answer.verdict),
+    );
+    let call = || tree.all_hits_of_ray(from, way, both, hits, budget, stack);
+    if let Some(answer) = to.answer(call, |_, _| ()) {
+        ask::listed(to.fold, hits.get(..answer.stored).unwrap_or_default());
+        ask::how(to.fold, answer.ended);
+    }
+}
+
 /// Triangles that may face an eye at `p`, then along the way to there from the origin.
 #[inline(never)]
 pub fn cull(
