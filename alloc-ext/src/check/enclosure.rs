@@ -24,7 +24,7 @@ mod winding;
 
 use super::manifold::Manifold;
 pub(crate) use distance::point_is_far;
-pub(crate) use fronts::check_fronts;
+pub(crate) use fronts::{as_filed, check_fronts};
 pub(crate) use meeting::area_free;
 use meeting::{apart, sharing_apart};
 pub(crate) use surface::Corners;

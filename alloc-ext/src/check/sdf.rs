@@ -45,22 +45,27 @@ fn prove(bytes: &[u8], input: Input<'_>) -> Result<[usize; 2], Unproved> {
     let mesh = input.mesh;
     let corners = |t: [u32; 3]| t.map(|v| field.place(mesh.positions[v as usize]));
     let triangles: Vec<[DVec3; 3]> = mesh.all_triangles().map(corners).collect();
-    let end = field.end();
-    if let Some(out) = triangles.iter().flatten().find(|p| {
-        p.min_element() < -1.0 || !(p.x <= end.x + 1.0 && p.y <= end.y + 1.0 && p.z <= end.z + 1.0)
-    }) {
+    // The file's mesh may be so far from the given one.
+    let moved = (input.moved + mesh.rounding) * field.per_unit * (1.0 + 1e-9);
+    let (least, end) = (DVec3::splat(moved), field.end() - moved);
+    let is_within = |p: &&DVec3| p.cmpge(least).all() && p.cmple(end).all();
+    if let Some(out) = triangles.iter().flatten().find(|p| !is_within(p)) {
         return Err(Unproved::Wrong(format!("the mesh leaves the field at {out:?}, in its units")));
     }
     let sides = if field.is_unsigned() { None } else { Some(Sides::of(mesh, &field)) };
-    // The mesh may be so far from the file's.
-    let moved = (input.moved + mesh.rounding) * field.per_unit * (1.0 + 1e-9);
     let cells = field.cells.into_iter().product::<usize>();
     let index = boxes::Grid::new(&triangles, field.cells);
-    let counts: Result<Vec<usize>, Unproved> = (0..cells)
-        .into_par_iter()
-        .map(|cell| {
-            Cell { field: &field, sides: sides.as_ref(), moved }.prove(cell, &triangles, &index)
-        })
-        .collect();
-    Ok([cells, counts?.iter().sum()])
+    let cell = Cell { field: &field, sides: sides.as_ref(), moved };
+    let prove = |number| cell.prove(number, &triangles, &index);
+    let proofs: Vec<Result<usize, Unproved>> = (0..cells).into_par_iter().map(prove).collect();
+    // A wrong claim says more than one that is open, and the first one always the same.
+    let (mut boxes, mut open) = (0, None);
+    for proof in proofs {
+        match proof {
+            Ok(count) => boxes += count,
+            Err(Unproved::Wrong(words)) => return Err(Unproved::Wrong(words)),
+            Err(error) => open = open.or(Some(error)),
+        }
+    }
+    open.map_or(Ok([cells, boxes]), Err)
 }

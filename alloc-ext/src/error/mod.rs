@@ -131,6 +131,8 @@ pub enum BuildError {
     NoRoom,
     /// The mesh with its margin leaves the range of single precision.
     MarginTooLarge,
+    /// A margin is negative, or no number.
+    NegativeMargin,
     /// The slack is not more than the margin.
     SlackWithinMargin {
         /// The slack.
@@ -138,7 +140,7 @@ pub enum BuildError {
         /// The margin, with what rounding of the mesh may take from it.
         margin: f64,
     },
-    /// A field with sides was asked for, and the mesh is not closed, or has none.
+    /// A field with sides was asked for, and the mesh is not closed, or walls of it were merged.
     NoSides {
         /// The kind of field.
         kind: &'static str,
@@ -287,6 +289,7 @@ impl fmt::Display for BuildError {
                 "the mesh and its margin leave the range of single precision, 3.4e38; ask for \
                  less, or scale both down",
             ),
+            Self::NegativeMargin => f.write_str("a margin is 0 or more"),
             Self::SlackWithinMargin { slack, margin } => write!(
                 f,
                 "--slack {} is no more than the margin of {} (--margin, and what rounding may \
@@ -304,8 +307,9 @@ impl fmt::Display for BuildError {
             ),
             Self::NoSides { kind } => write!(
                 f,
-                "the mesh is not closed, so that no point is inside or outside: a {kind} field \
-                 needs sides; close it, or ask for --sdf-kind surface"
+                "the mesh is not closed, or walls of it that coincide were merged, so that no point \
+                 is inside or outside: a {kind} field needs sides; close it and unite its parts, or \
+                 ask for --sdf-kind surface"
             ),
             Self::FieldUnit { side } => write!(
                 f,

@@ -79,7 +79,7 @@ pub struct SdfReport {
     /// Mean width of the intervals up to a tenth of the diagonal from the surface, of a solid field
     /// outside.
     pub mean_width: f64,
-    /// Largest width there.
+    /// Largest width of the samples there; a cell's errors may be wider between them.
     pub largest_width: f64,
     /// Largest error of a cell, below or above.
     pub largest_error: f64,

@@ -50,10 +50,14 @@ impl Domain {
     /// Without one, a tenth of the box's diagonal.
     ///
     /// # Errors
-    /// [`BuildError::FieldUnit`], [`BuildError::MarginTooLarge`].
+    /// [`BuildError::NegativeMargin`], [`BuildError::FieldUnit`], [`BuildError::MarginTooLarge`].
     pub fn of(bounds: &Bounds, margin: Option<f64>, most_bytes: usize) -> Result<Self, BuildError> {
         let diagonal = (bounds.high - bounds.low).length();
-        let bounds = bounds.grown(margin.unwrap_or(0.1 * diagonal));
+        let margin = margin.unwrap_or(0.1 * diagonal);
+        if margin.is_nan() || margin < 0.0 {
+            return Err(BuildError::NegativeMargin);
+        }
+        let bounds = bounds.grown(margin);
         let size = bounds.high - bounds.low;
         if size.max_element() > f64::from(f32::MAX) || step(&bounds).is_nan() {
             return Err(BuildError::MarginTooLarge);

@@ -48,6 +48,29 @@ fn a_field_is_reported_with_its_kind_and_its_widths_and_there_is_no_tree() {
 }
 
 #[test]
+fn files_with_a_copy_or_a_turned_triangle_have_sides_that_are_proved_and_are_asked() {
+    let directory = scratch("sdf_repaired");
+    let mesh = block(&directory, false);
+    let text = fs::read_to_string(&mesh).unwrap();
+    for (name, edit) in [
+        ("copy", text.clone() + "f 2 4 8\n"),
+        ("turned", text.replace("f 2 4 8 6", "f 2 4 8\nf 2 6 8")),
+        ("inside_out", text.replace("f 1 3 4 2", "f 2 4 3 1")),
+    ] {
+        let file = directory.join(name).with_extension("obj");
+        fs::write(&file, edit).unwrap();
+        build(&file, &["--sdf-kind", "signed"]);
+        let blob = file.with_extension("msw");
+        let told = ok(["verify", arg(&blob), arg(&file)]);
+        assert!(told.contains("proved: distance field"), "{told}");
+        let sides = ok(["signed", arg(&blob), "1.5,1,0.5", "5,1,0.5"]);
+        assert!(sides.contains("1.5,1,0.5,inside") && sides.contains("5,1,0.5,outside"), "{sides}");
+        let within = ok(["within", arg(&blob), "1.5,1,3", "--distance", "1"]);
+        assert!(within.contains("1.5,1,3,no,"), "{within}");
+    }
+}
+
+#[test]
 fn an_open_mesh_gets_distances_without_a_sign_and_no_others() {
     let directory = scratch("sdf_open");
     let mesh = block(&directory, true);

@@ -31,8 +31,10 @@ pub enum Contradiction {
     CurveRange,
     /// Depth of the nodes of a curve.
     CurveDepth,
-    /// Cells or kind of a distance field.
+    /// A distance field without cells.
     FieldCells,
+    /// An unknown kind of distance field.
+    FieldKind,
     /// Base or step of a distance field's codes.
     FieldStep,
     /// Origin or unit of a distance field.
@@ -107,7 +109,8 @@ impl core::fmt::Display for Contradiction {
             Self::CurveGrid => "grid of a curve out of range",
             Self::CurveRange => "scale, error or box of a curve out of range",
             Self::CurveDepth => "depth of the nodes of a curve",
-            Self::FieldCells => "cells or kind of the distance field",
+            Self::FieldCells => "a distance field without cells",
+            Self::FieldKind => "the kind of the distance field",
             Self::FieldStep => "base or step of the distance field's codes",
             Self::FieldUnit => "origin or unit of the distance field",
             Self::SectionTableSize => "size of the section table",

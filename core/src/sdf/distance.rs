@@ -49,38 +49,31 @@ impl Sdf<'_> {
     /// the nearest place of it.
     ///
     /// Cost: one look-up, the same for every point of the field; no scratch memory. Without
-    /// floating point the conversions cost five times the look-up:
-    /// [`distance_in_units`](Self::distance_in_units) needs none. Source: no paper; cells with
-    /// proved errors are told in `core/DESIGN.md`, "Distance field".
+    /// floating point the conversions cost several times the look-up:
+    /// [`distance_in_units`](Self::distance_in_units) needs none. Source: no paper; the module's
+    /// text tells why cells have errors of their own.
     ///
     /// # Errors
-    /// [`QueryError::NotFinite`]; [`QueryError::OutOfDomain`] farther than 2^60 units from the
-    /// field.
+    /// [`QueryError::NotFinite`]; [`QueryError::OutOfDomain`] farther than 2^60 units along an axis
+    /// from the field's least corner.
     #[inline(never)]
     pub fn distance(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
-        let [lower, upper] = match self.place(point)? {
-            Place::Within(place) => {
-                let [lower, upper] = self.value(place)?;
-                let lower = lower.wrapping_sub(PLACE) as f32;
-                [self.down(lower), self.up(upper.wrapping_add(PLACE) as f32)]
-            }
+        Ok(match self.place(point)? {
+            Place::Within(place) => self.answer(self.within_field(self.value(place)?)),
             Place::Beyond(place, beyond) => {
-                let [lower, upper] = bounds_beyond(self.value(place)?, beyond);
-                [lesser(self.down(lower), f32::MAX), self.up(upper)]
+                self.answer(self.outside_field(bounds_beyond(self.value(place)?, beyond)))
             }
-        };
-        let lower = if self.kind == SdfKind::Signed { lower } else { greater(0.0, lower) };
-        Ok(FieldDistance { distance: Interval { lower, upper }, side: self.side(lower, upper) })
+        })
     }
 
     /// [`distance`](Self::distance), and the gradient at the point: the direction in which the
     /// distance rises the most, of a length near 1.
     ///
-    /// The gradient is that of the trilinear function, continuous along a cell's sides alone. It
-    /// carries no guarantee: use it as a direction, of a force or of a step. Outside of the field
-    /// it leads away from where the nearest place of the field sees the surface.
+    /// The gradient is that of the trilinear function, which jumps at the sides of cells. It carries
+    /// no guarantee: use it as a direction, of a force or of a step. Outside of the field it leads
+    /// away from where the nearest place of the field sees the surface.
     ///
-    /// Cost: two look-ups.
+    /// Cost: half more than [`distance`](Self::distance).
     ///
     /// # Errors
     /// Those of [`distance`](Self::distance).
@@ -89,26 +82,26 @@ impl Sdf<'_> {
         &self,
         point: [f32; 3],
     ) -> Result<(FieldDistance, [f32; 3]), QueryError> {
-        let found = self.distance(point)?;
-        let at = |place| -> Result<[f32; 3], QueryError> {
-            Ok(each(self.slopes(place)?, |slope| slope as f32 * SLOPE))
-        };
-        let gradient = match self.place(point)? {
-            Place::Within(place) => at(place)?,
-            Place::Beyond(place, beyond) => {
-                let [_, far] = self.value(place)?;
-                away(beyond, far as f32, at(place)?)
+        let slopes = |slopes: [i32; 3]| each(slopes, |slope| slope as f32 * SLOPE);
+        Ok(match self.place(point)? {
+            Place::Within(place) => {
+                let (bounds, gradient) = self.value_and_slopes(place)?;
+                (self.answer(self.within_field(bounds)), slopes(gradient))
             }
-        };
-        Ok((found, gradient))
+            Place::Beyond(place, beyond) => {
+                let (bounds @ [_, far], gradient) = self.value_and_slopes(place)?;
+                let found = self.answer(self.outside_field(bounds_beyond(bounds, beyond)));
+                (found, away(beyond, far as f32, slopes(gradient)))
+            }
+        })
     }
 
     /// Whether the mesh is at most `distance` from `point`, both in input units. Of a field of kind
     /// [`Solid`](SdfKind::Solid) the mesh with its inside: `No` only outside.
     ///
     /// Undecided for [`Resolution`](Undecided::Resolution) if the interval of
-    /// [`distance`](Self::distance) contains `distance`. For collision avoidance, treat undecided as
-    /// `Yes`.
+    /// [`distance`](Self::distance) holds lengths on both sides of `distance`, without their sign.
+    /// For collision avoidance, treat undecided as `Yes`.
     ///
     /// Cost: that of [`distance`](Self::distance).
     ///
@@ -130,18 +123,26 @@ impl Sdf<'_> {
         })
     }
 
-    /// A number of units in input units, not above it.
+    /// Bounds of the distance in input units, from those at the nearest place. `Sdf::open` made
+    /// sure that no product overflows.
     #[inline(always)]
-    fn down(&self, units: f32) -> f32 {
-        let length = units * self.unit;
-        length - length.abs() * ROUNDED
+    fn within_field(&self, [lower, upper]: [i32; 2]) -> [f32; 2] {
+        let lower = lower.wrapping_sub(PLACE) as f32 * self.unit;
+        let upper = upper.wrapping_add(PLACE) as f32 * self.unit;
+        [lower - lower.abs() * ROUNDED, upper + upper.abs() * ROUNDED]
     }
 
-    /// A number of units in input units, not below it.
+    /// The same from bounds outside of the field, which are not below -3 units.
     #[inline(always)]
-    fn up(&self, units: f32) -> f32 {
-        let length = units * self.unit;
-        length + length.abs() * ROUNDED
+    fn outside_field(&self, [lower, upper]: [f32; 2]) -> [f32; 2] {
+        let (lower, upper) = (lesser(lower * self.unit, f32::MAX), upper * self.unit);
+        [lower - lower.abs() * ROUNDED, upper + upper * ROUNDED]
+    }
+
+    #[inline(always)]
+    fn answer(&self, [lower, upper]: [f32; 2]) -> FieldDistance {
+        let lower = if self.kind == SdfKind::Signed { lower } else { greater(0.0, lower) };
+        FieldDistance { distance: Interval { lower, upper }, side: self.side(lower, upper) }
     }
 
     #[inline(always)]

@@ -30,7 +30,7 @@ impl Sdf<'_> {
         if x >= 0.0 && y >= 0.0 && z >= 0.0 && a < width && b < depth && c < height {
             return Ok(Place::Within(whole));
         }
-        self.beyond(point, [x, y, z])
+        self.beyond(point)
     }
 
     /// The units of a point, in f32. Truncated, they are rounded to nearest.
@@ -42,10 +42,14 @@ impl Sdf<'_> {
 
     #[cold]
     #[inline(never)]
-    fn beyond(&self, point: [f32; 3], units: [f32; 3]) -> Result<Place, QueryError> {
+    fn beyond(&self, point @ [x, y, z]: [f32; 3]) -> Result<Place, QueryError> {
         if !point.iter().all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
         }
+        let [a, b, c] = self.origin;
+        // A difference of halves does not overflow.
+        let units = |x: f32, a: f32| (0.5 * x - 0.5 * a) * self.per_unit * 2.0;
+        let units = [units(x, a), units(y, b), units(z, c)];
         if units.iter().any(|x| x.abs() > FARTHEST) {
             return Err(QueryError::OutOfDomain);
         }

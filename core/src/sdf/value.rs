@@ -77,7 +77,22 @@ impl Sdf<'_> {
 
     #[inline(always)]
     fn bounds_at(&self, place: [u32; 3]) -> Option<[i32; 2]> {
-        let corners = self.corners(place)?;
+        self.interval_at(&self.corners(place)?)
+    }
+
+    /// The bounds and the gradient, in 2^-15.
+    #[inline(always)]
+    pub(super) fn value_and_slopes(
+        &self,
+        place: [u32; 3],
+    ) -> Result<([i32; 2], [i32; 3]), QueryError> {
+        let corners = self.corners(place).ok_or(QueryError::Unchecked)?;
+        let bounds = self.interval_at(&corners).ok_or(QueryError::Unchecked)?;
+        Ok((bounds, self.slopes_at(&corners)))
+    }
+
+    #[inline(always)]
+    fn interval_at(&self, corners: &Corners) -> Option<[i32; 2]> {
         let ([low, high], [_, _, c]) = (corners.layers(), corners.place);
         let value = low.wrapping_add((high.wrapping_sub(low) >> FRACTION_BITS).wrapping_mul(c));
         let steps = (value >> (2 * FRACTION_BITS - VALUE_BITS)).wrapping_mul(self.step);
@@ -114,12 +129,16 @@ impl Sdf<'_> {
     /// surface is far from a cell's size.
     #[inline(always)]
     pub(super) fn slopes(&self, place: [u32; 3]) -> Result<[i32; 3], QueryError> {
-        let corners = self.corners(place).ok_or(QueryError::Unchecked)?;
+        Ok(self.slopes_at(&self.corners(place).ok_or(QueryError::Unchecked)?))
+    }
+
+    #[inline(always)]
+    fn slopes_at(&self, corners: &Corners) -> [i32; 3] {
         // One code along a cell is a step in 2048 units. Differences have 22 bits below the code.
         let slope = |difference: i32| {
             let steps = (difference >> (2 * FRACTION_BITS - VALUE_BITS)).wrapping_mul(self.step);
             steps >> (VALUE_BITS + FRACTION_BITS - SLOPE_BITS)
         };
-        Ok(each(corners.differences(), slope))
+        each(corners.differences(), slope)
     }
 }

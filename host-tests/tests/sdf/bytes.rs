@@ -62,7 +62,7 @@ fn numbers_out_of_range_are_named() {
     for axis in 0..3 {
         assert_eq!(with_byte(field::CELLS + axis, 0), wrong(Contradiction::FieldCells));
     }
-    assert_eq!(with_byte(field::KIND, 3), wrong(Contradiction::FieldCells));
+    assert_eq!(with_byte(field::KIND, 3), wrong(Contradiction::FieldKind));
     assert_eq!(with_byte(field::RESERVED, 1), Err(OpenError::Reserved));
     assert_eq!(with_byte(field::RESERVED_2, 1), Err(OpenError::Reserved));
     let step = |step: u16| {

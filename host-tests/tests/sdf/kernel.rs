@@ -161,6 +161,22 @@ fn intervals_of_a_ball_hold_within_the_field_and_outside_at_any_scale_and_place(
 }
 
 #[test]
+fn lower_ends_are_numbers_where_f32_ends() {
+    let bytes = ball((1u128 << 99) as f32, [0.0; 3]);
+    let field = Sdf::open(&bytes).expect("opens");
+    for x in [3e38, -3e38, 1e37, f32::MAX] {
+        for point in [[x; 3], [x, 0.0, 0.0], [x, -x, x]] {
+            let truth = of_ball(&field, point) / f64::from(field.header().per_unit);
+            let found = field.distance(point).expect("finite").distance;
+            assert!(f64::from(found.lower) <= truth, "{point:?} {found:?}");
+            assert!(truth <= f64::from(found.upper), "{point:?} {found:?}");
+        }
+    }
+    // A unit so large that a bound within the field would overflow.
+    assert!(Sdf::open(&fields::any(1, SdfKind::Signed, [2; 3], (1u128 << 125) as f32)).is_err());
+}
+
+#[test]
 fn bounds_in_units_of_a_ball_hold_outside_of_the_field() {
     let bytes = ball(0.25, [0.0; 3]);
     let (field, mut rng) = (Sdf::open(&bytes).expect("opens"), Rng::new(3));

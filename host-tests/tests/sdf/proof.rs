@@ -8,7 +8,7 @@ use meshsweep_core::internal::sdf::format::layout::field;
 use meshsweep_core::{SdfKind, SectionKind};
 use meshsweep_host_tests::corrupt::edited;
 use meshsweep_host_tests::generate::{
-    Triangles, block, bracket, cube, icosphere, joined, plate, scaled,
+    Rng, Triangles, block, bracket, cube, fields, icosphere, joined, plate, scaled,
 };
 
 fn mesh((positions, triangles): Triangles) -> Mesh {
@@ -80,7 +80,7 @@ fn errors_that_are_smaller_and_codes_that_are_others_are_not_proved() {
                     *error = narrow.to_le_bytes();
                 }
             });
-            assert_eq!(less, Outcome::Failed, "{kind:?}");
+            assert_ne!(less, Outcome::Proved, "{kind:?}");
         }
         let moved = changed(&|section| {
             let base = i32::from_le_bytes(section[field::BASE..][..4].try_into().expect("four"));
@@ -93,4 +93,59 @@ fn errors_that_are_smaller_and_codes_that_are_others_are_not_proved() {
         });
         assert_eq!(nearer, Outcome::Failed, "{kind:?}");
     }
+}
+
+/// A field with a unit of 1 whose cells claim nothing, but one: distances of 1490 and more.
+fn claiming(kind: SdfKind, cells: [u8; 3], at: [usize; 3], low: u16) -> Vec<u8> {
+    let mut header = fields::header(&mut Rng::new(1), kind, cells, 1.0);
+    (header.origin, header.base, header.step) = ([-0.5; 3], 1500, 1);
+    header.low = [u16::MAX; 16];
+    header.low[0] = low;
+    header.high = [u16::MAX; 16];
+    let [corners, count] = header.counts();
+    let [x, y, _] = cells.map(usize::from);
+    let mut section = header.write().to_vec();
+    section.resize(section.len() + corners, 0);
+    section.resize(section.len() + count, 1);
+    section[96 + corners + at[0] + x * (at[1] + y * at[2])] = 0;
+    fields::blob(section)
+}
+
+#[test]
+fn a_field_that_passes_over_a_needle_is_refuted() {
+    // It runs through the centre of cell (4, 7, 10). Its computed normal leads far off it.
+    let needle = [
+        [0.375, 0.625, 0.875],
+        [2.759_096_3e-16, 3.380_982_3e-16, 5.776_904_5e-16],
+        [10_947.0, 18_245.0, 25_543.0],
+        [9216.0, 11_860.0, 21_504.0],
+        [9226.0, 11_860.0, 21_504.0],
+        [9216.0, 11_860.0, 21_514.0],
+    ];
+    let mesh = Mesh::new(needle.to_vec(), vec![[0, 1, 2], [3, 4, 5]]);
+    let wrong = claiming(SdfKind::Surface, [6, 9, 13], [4, 7, 10], 10);
+    assert_eq!(outcome(&wrong, &mesh), Outcome::Failed);
+    let right = claiming(SdfKind::Surface, [6, 9, 13], [4, 7, 10], 1501);
+    assert_eq!(outcome(&right, &mesh), Outcome::Proved);
+}
+
+#[test]
+fn a_claim_without_slack_is_not_called_wrong() {
+    let mesh =
+        Mesh::new(vec![[100.0; 3], [200.0, 100.0, 100.0], [100.0, 200.0, 100.0]], vec![[0, 1, 2]]);
+    // F − low is 0 at the triangle: true, and no proof by numbers that round.
+    let tight = claiming(SdfKind::Surface, [1, 1, 1], [0, 0, 0], 1500);
+    assert_eq!(outcome(&tight, &mesh), Outcome::NotProved);
+}
+
+#[test]
+fn a_mesh_that_leaves_the_field_is_refused() {
+    let field = claiming(SdfKind::Surface, [1, 1, 1], [0, 0, 0], u16::MAX);
+    let plate = |z: f32| {
+        let at = [[100.0, 100.0, z], [200.0, 100.0, z], [100.0, 200.0, z]];
+        Mesh::new(at.to_vec(), vec![[0, 1, 2]])
+    };
+    assert_eq!(outcome(&field, &plate(2047.5)), Outcome::Proved);
+    assert_eq!(outcome(&field, &plate(2048.5)), Outcome::Failed);
+    assert_eq!(outcome(&field, &plate(-0.5)), Outcome::Failed);
 }

@@ -82,7 +82,10 @@ pub(crate) fn check_fronts(
 
 /// The surface as the file winds it, without the components that are turned in part: these have no
 /// winding number, and must be alone.
-fn as_filed(
+///
+/// # Errors
+/// A component that is turned in part and is not alone, in words.
+pub(crate) fn as_filed(
     surface: &Surface,
     turned: &[bool],
     told: &[bool],

@@ -1,10 +1,12 @@
 //! The proof of a cell, by boxes that are halved until each is proved.
 //!
-//! *Away from the surface.* The distance of a triangle is convex, so over a box with the centre c it
-//! is at least d + n·(x − c), n the unit vector from the triangle's nearest point to c. The distance
-//! of the surface is the least of those. It is at most |x − q|, q any point of the surface: convex
-//! too, so the eight corners bound it against a linear function. The side is the same all over the
-//! box, for the surface does not cross it.
+//! *Away from the surface.* Along any unit vector n a triangle ends at one of its corners, so from a
+//! point x it is at least as far as x is above the highest. Over a box with the centre c that is
+//! h + n·(x − c), h the height of c. Taken along the way from a near point of the triangle to c, it
+//! is the distance but for rounding, and it holds whatever rounding did to n. The distance of the
+//! surface is the least of those. It is at most |x − q|, q any point of the surface: convex, so the
+//! eight corners bound it against a linear function. The side is the same all over the box, for the
+//! surface does not cross it.
 //!
 //! *Across the surface.* Let all of the surface within 4r of c, the box's half diagonal being r, lie
 //! within δ ≤ r/2 of a plane through the nearest point, with the winding numbers 0 above and 1
@@ -18,8 +20,9 @@ use super::parse::{CELL, Field, Trilinear};
 use super::sides::{Side, Sides};
 use glam::DVec3;
 
-/// What rounding may do to any number of a box, units: lengths below 2^21, a hundred roundings of
-/// 2^-53 each.
+/// What rounding may do to any number of a box, units: lengths below 2^21, a hundred sums and
+/// products of 2^-53 each. No quotient is trusted: unit vectors and means of corners are as sound if
+/// they are others.
 const MARGIN: f64 = 1.0 / (1 << 24) as f64;
 
 /// Boxes of no larger radius than this part of a cell's are not halved: a claim without slack is
@@ -70,63 +73,69 @@ impl Grid {
     /// centre: shells of cells are looked at until the next is too far.
     fn near(&self, number: usize, centre: DVec3, triangles: &[[DVec3; 3]]) -> Vec<u32> {
         let [cx, cy, cz] = self.cells;
-        let at = [number % cx, number / cx % cy, number / (cx * cy)].map(|n| n as isize);
+        let at = [number % cx, number / cx % cy, number / (cx * cy)];
         let radius = 0.5 * 3f64.sqrt() * CELL;
-        let (mut found, mut least) = (Vec::<(u32, f64)>::new(), f64::INFINITY);
-        for shell in 0..cx.max(cy).max(cz) as isize {
+        let (mut found, mut least) = (Vec::<Seen>::new(), f64::INFINITY);
+        for shell in 0..cx.max(cy).max(cz) {
             // What lies beyond the shells before is at least so far from the centre.
             let away = (shell as f64 - 0.5) * CELL;
             if away > (least + 2.0 * radius).max(4.0 * radius) {
                 break;
             }
-            for z in at[2] - shell..=at[2] + shell {
-                for y in at[1] - shell..=at[1] + shell {
-                    for x in at[0] - shell..=at[0] + shell {
-                        let farthest = (z - at[2]).abs().max((y - at[1]).abs());
-                        let is_in = |n: isize, cells: usize| (0..cells as isize).contains(&n);
-                        if farthest.max((x - at[0]).abs()) != shell
-                            || !(is_in(x, cx) && is_in(y, cy) && is_in(z, cz))
-                        {
+            let around = |at: usize, cells: usize| {
+                at.saturating_sub(shell)..=at.saturating_add(shell).min(cells - 1)
+            };
+            for z in around(at[2], cz) {
+                for y in around(at[1], cy) {
+                    for x in around(at[0], cx) {
+                        let away = [x, y, z].iter().zip(at).map(|(&n, at)| n.abs_diff(at)).max();
+                        if away != Some(shell) {
                             continue;
                         }
-                        for &t in &self.of[((z as usize * cy) + y as usize) * cx + x as usize] {
-                            let d = foot(centre, triangles[t as usize]).distance(centre);
-                            least = least.min(d);
-                            found.push((t, d));
+                        for &t in &self.of[(z * cy + y) * cx + x] {
+                            let seen = Seen::of(centre, t, triangles[t as usize]);
+                            least = least.min(seen.distance);
+                            found.push(seen);
                         }
                     }
                 }
             }
         }
-        let most = (least + 2.0 * radius).max(4.0 * radius) + MARGIN;
-        let mut near: Vec<u32> =
-            found.iter().filter(|(_, d)| *d <= most).map(|(t, _)| *t).collect();
+        let mut near = kept(&found, radius);
         near.sort_unstable();
         near.dedup();
         near
     }
 }
 
-/// The point of a triangle that is nearest to a point: the foot on its plane if that lies inside of
-/// three half-planes, else the nearest point of an edge.
+/// A point of a triangle next to a point: the nearest one but for rounding. It is a mean of corners,
+/// so it lies on the triangle whatever its shape.
 fn foot(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
-    let normal = (b - a).cross(c - a);
-    let square = normal.length_squared();
-    let inside = |from: DVec3, to: DVec3| (to - from).cross(normal).dot(p - from) <= 0.0;
-    if square > 0.0 && inside(a, b) && inside(b, c) && inside(c, a) {
-        return p - normal * (normal.dot(p - a) / square);
-    }
     let on_edge = |from: DVec3, to: DVec3| {
         let way = to - from;
         let square = way.length_squared();
         let t = if square > 0.0 { (way.dot(p - from) / square).clamp(0.0, 1.0) } else { 0.0 };
         from + way * t
     };
-    let [x, y, z] = [on_edge(a, b), on_edge(b, c), on_edge(c, a)];
     let nearer = |s: DVec3, t: DVec3| {
         if p.distance_squared(t) < p.distance_squared(s) { t } else { s }
     };
-    nearer(nearer(x, y), z)
+    let edges = nearer(nearer(on_edge(a, b), on_edge(b, c)), on_edge(c, a));
+    let normal = (b - a).cross(c - a);
+    let weights = [(b, c), (c, a), (a, b)].map(|(u, v)| (u - p).cross(v - p).dot(normal));
+    let sum: f64 = weights.iter().sum();
+    if weights.iter().all(|&weight| weight >= 0.0) && sum > 0.0 {
+        let [u, v, w] = weights.map(|weight| weight / sum);
+        return nearer(edges, a * u + b * v + c * w);
+    }
+    edges
+}
+
+/// The triangles that may be nearest in a box of a radius, and all within four radii of its centre.
+fn kept(seen: &[Seen], radius: f64) -> Vec<u32> {
+    let least = seen.iter().fold(f64::INFINITY, |least, seen| least.min(seen.distance));
+    let most = (least + 2.0 * radius).max(4.0 * radius) + MARGIN;
+    seen.iter().filter(|seen| seen.height <= most).map(|seen| seen.triangle).collect()
 }
 
 /// A box: centre, half sides, and its side if the surface does not cross it.
@@ -140,10 +149,31 @@ struct Part {
 /// A triangle seen from a box's centre.
 struct Seen {
     triangle: u32,
+    /// A point of the triangle, and how far it is from the centre.
     foot: DVec3,
-    /// Unit vector from the foot to the centre; zero at the surface.
-    away: DVec3,
     distance: f64,
+    /// Unit vector from the foot to the centre; zero next to the triangle.
+    away: DVec3,
+    /// Height of the centre over the triangle along that: the distance is not less.
+    height: f64,
+}
+
+impl Seen {
+    fn of(centre: DVec3, triangle: u32, corners: [DVec3; 3]) -> Self {
+        let foot = foot(centre, corners);
+        let distance = foot.distance(centre);
+        let away = if distance > MARGIN { (centre - foot) / distance } else { DVec3::ZERO };
+        let heights = corners.map(|corner| away.dot(centre - corner));
+        let height = heights.into_iter().fold(f64::INFINITY, f64::min).max(0.0);
+        Self { triangle, foot, distance, away, height }
+    }
+}
+
+/// What came of a box.
+enum Found {
+    Proved,
+    /// Not, and the side of all of it, if it has one.
+    Open(Option<Side>),
 }
 
 /// The function of a cell about a box's centre, with its errors.
@@ -180,63 +210,70 @@ impl Cell<'_> {
         let mut boxes = 0;
         while let Some(part) = open.pop() {
             boxes += 1;
-            let seen: Vec<Seen> = part
-                .near
-                .iter()
-                .map(|&triangle| {
-                    let foot = foot(part.centre, triangles[triangle as usize]);
-                    let (away, distance) = (part.centre - foot, foot.distance(part.centre));
-                    let away = if distance > MARGIN { away / distance } else { DVec3::ZERO };
-                    Seen { triangle, foot, away, distance }
-                })
-                .collect();
+            let see = |&t: &u32| Seen::of(part.centre, t, triangles[t as usize]);
+            let seen: Vec<Seen> = part.near.iter().map(see).collect();
             let about = About::of(&function, part.centre - corner, part.half, [low, high]);
-            let side = match self.side(&part, &seen, &about, triangles) {
-                Ok(side) => side,
-                Err(()) => continue,
-            };
+            let Found::Open(side) = self.look(&part, &seen, &about, triangles) else { continue };
             let r = part.half.length();
             if r <= SMALLEST * CELL {
                 let at = part.centre;
-                return Err(Unproved::Wrong(format!(
-                    "the errors of cell {number} are not proved at {at:?}, in units of the field"
-                )));
+                let words = |what| {
+                    format!("the errors of cell {number} {what} at {at:?}, in units of the field")
+                };
+                return Err(match self.is_refuted(&part, &seen, &about, side) {
+                    true => Unproved::Wrong(words("do not hold")),
+                    false => Unproved::Open(words("are not proved")),
+                });
             }
             if boxes >= MOST {
                 return Err(Unproved::Open(format!("cell {number} takes more than {MOST} boxes")));
             }
-            let least = seen.iter().fold(f64::INFINITY, |least, seen| least.min(seen.distance));
-            let most = (least + 2.0 * r).max(4.0 * r) + MARGIN;
-            let near: Vec<u32> =
-                seen.iter().filter(|s| s.distance <= most).map(|s| s.triangle).collect();
-            open.extend(halves(&part, side, near));
+            open.extend(halves(&part, side, kept(&seen, r)));
         }
         Ok(boxes)
     }
 
-    /// Proves a box, which is `Err(())`; else the side of all of it, if it has one.
-    fn side(
-        &self,
-        part: &Part,
-        seen: &[Seen],
-        about: &About,
-        triangles: &[[DVec3; 3]],
-    ) -> Result<Option<Side>, ()> {
+    /// Whether a claim is wrong at a box's centre.
+    fn is_refuted(&self, part: &Part, seen: &[Seen], about: &About, side: Option<Side>) -> bool {
+        let bounds = seen.iter().fold([f64::INFINITY; 2], |[least, most], seen| {
+            [least.min(seen.height), most.min(seen.distance)]
+        });
+        let [least, most] = bounds;
+        let side = match (self.sides, side) {
+            (None, _) => Side::Outside,
+            (_, Some(side)) => side,
+            (Some(_), None) if least <= MARGIN => return false,
+            (Some(sides), None) => sides.at(part.centre),
+        };
+        // What was taken off the errors, and what rounding may add.
+        let room = 2.0 * (self.moved + 2.0 * MARGIN);
+        let [below, above] = [about.value - about.low - room, about.value + about.high + room];
+        let not_in = |least: f64, most: f64| below > most || above < least;
+        let inside = || match self.field.is_solid() {
+            true => below > 0.0,
+            false => not_in(-most, -least),
+        };
+        match side {
+            Side::Outside => not_in(least, most),
+            Side::Inside => inside(),
+            Side::Both => not_in(least, most) || inside(),
+        }
+    }
+
+    /// Looks for a proof of a box.
+    fn look(&self, part: &Part, seen: &[Seen], about: &About, triangles: &[[DVec3; 3]]) -> Found {
         let r = part.half.length();
         let Some(nearest) = seen.iter().min_by(|s, t| s.distance.total_cmp(&t.distance)) else {
-            return Ok(None);
+            return Found::Open(None);
         };
-        let done = |is_proved: bool, side: Option<Side>| if is_proved { Err(()) } else { Ok(side) };
-        let Some(sides) = self.sides else {
-            let is_proved = about.is_above_low(part.half, seen, 1.0)
-                && about.is_below_high(part.half, part.centre, nearest.foot, 1.0);
-            return done(is_proved, None);
-        };
-        let is_solid = self.field.is_solid();
+        let or_open =
+            |is_proved: bool, side| if is_proved { Found::Proved } else { Found::Open(side) };
         let outside = || {
             about.is_above_low(part.half, seen, 1.0)
                 && about.is_below_high(part.half, part.centre, nearest.foot, 1.0)
         };
+        let Some(sides) = self.sides else { return or_open(outside(), None) };
+        let is_solid = self.field.is_solid();
         let inside = || {
             if is_solid {
                 return about.is_at_most_zero(part.half);
@@ -244,60 +281,69 @@ impl Cell<'_> {
             about.is_above_low_inside(part.half, part.centre, nearest.foot)
                 && about.is_below_high_inside(part.half, seen)
         };
-        if nearest.distance > r + MARGIN {
+        if seen.iter().all(|seen| seen.height > r + MARGIN) {
             let side = part.side.unwrap_or_else(|| sides.at(part.centre));
             let is_proved = match side {
                 Side::Outside => outside(),
                 Side::Inside => inside(),
                 Side::Both => outside() && inside(),
             };
-            return done(is_proved, Some(side));
+            return or_open(is_proved, Some(side));
         }
         let most = nearest.distance + r;
-        let lipschitz = {
-            let lower = if is_solid { 0.0 } else { -most };
-            about.greatest(part.half) - about.low <= lower
-                && about.least(part.half) + about.high >= most
-        };
-        if lipschitz {
-            return Err(());
+        let lower = if is_solid { 0.0 } else { -most };
+        let is_near = about.greatest(part.half) - about.low <= lower
+            && about.least(part.half) + about.high >= most;
+        if is_near {
+            return Found::Proved;
         }
         let Some((normal, delta)) = slab(r, nearest, seen, triangles) else {
-            return Ok(None);
+            return Found::Open(None);
         };
         // Height of the centre, and of the box against the function.
         let t = normal.dot(part.centre - nearest.foot);
-        let is_low = about.value + about.rest - about.low - (t - delta)
-            + (about.gradient - normal).abs().dot(part.half)
-            <= 0.0
+        let against = (about.gradient - normal).abs().dot(part.half);
+        let is_low = about.value + about.rest - about.low - (t - delta) + against <= 0.0
             || (is_solid && about.is_at_most_zero(part.half));
-        let is_high = (t + delta) - (about.value - about.rest + about.high)
-            + (about.gradient - normal).abs().dot(part.half)
-            <= 0.0;
+        let is_high = (t + delta) - (about.value - about.rest + about.high) + against <= 0.0;
         if !(is_low && is_high) {
-            return Ok(None);
+            return Found::Open(None);
         }
         let at = |way: f64| sides.at(part.centre + normal * way);
-        done(at(2.0 * r) == Side::Outside && at(-2.0 * r) == Side::Inside, None)
+        or_open(at(2.0 * r) == Side::Outside && at(-2.0 * r) == Side::Inside, None)
     }
 }
 
 /// A plane's unit normal, and how far from the plane through the nearest point all of the surface
-/// within four radii of a centre is, if that is at most half a radius.
+/// within four radii of a centre is, if that is at most half a radius. The nearest point is no
+/// farther than a radius. Any unit vector would do: none has to be a triangle's own normal.
 fn slab(r: f64, nearest: &Seen, seen: &[Seen], triangles: &[[DVec3; 3]]) -> Option<(DVec3, f64)> {
-    let normal_of = |triangle: u32| {
+    let across = |triangle: u32| {
         let [a, b, c] = triangles[triangle as usize];
-        (b - a).cross(c - a).try_normalize()
+        let longest = (b - a).length_squared().max((c - b).length_squared());
+        let longest = longest.max((a - c).length_squared());
+        ((b - a).cross(c - a), longest)
     };
-    let normal = normal_of(nearest.triangle)?;
+    let normal = across(nearest.triangle).0.try_normalize()?;
+    if nearest.distance > r {
+        return None;
+    }
     let mut delta = 0f64;
-    for s in seen.iter().filter(|s| s.distance <= 4.0 * r + MARGIN) {
+    for s in seen.iter().filter(|s| s.height <= 4.0 * r + MARGIN) {
         let corners = triangles[s.triangle as usize];
         let height = |p: DVec3| normal.dot(p - nearest.foot).abs();
         let of_corners = corners.iter().fold(0f64, |most, &p| most.max(height(p)));
-        // Of points of the triangle in the ball, none is farther than eight radii from another.
-        let slope = normal_of(s.triangle).map_or(1.0, |own| normal.cross(own).length());
-        delta = delta.max(of_corners.min(height(s.foot) + 8.0 * r * slope));
+        // Of points of the triangle in the ball, none is farther than eight radii from another. A
+        // normal of a triangle that is no sliver is off by less than 2^-30.
+        let (own, square) = across(s.triangle);
+        let of_slope = match own.try_normalize() {
+            Some(own_unit) if own.length() > square / (1 << 20) as f64 => {
+                let slope = normal.cross(own_unit).length() + 1.0 / (1 << 30) as f64;
+                height(s.foot) + 8.0 * r * slope
+            }
+            _ => f64::INFINITY,
+        };
+        delta = delta.max(of_corners.min(of_slope));
     }
     let delta = delta + MARGIN;
     (delta <= 0.5 * r).then_some((normal, delta))
@@ -327,7 +373,7 @@ impl About {
     fn margin(&self, half: DVec3, seen: &[Seen], sign: f64) -> f64 {
         seen.iter().fold(f64::INFINITY, |least, s| {
             let against = (s.away - self.gradient * sign).abs().dot(half);
-            least.min(s.distance - against)
+            least.min(s.height - against)
         }) - sign * self.value
             - self.rest
     }

@@ -57,7 +57,7 @@ impl<'a> Sdf<'a> {
             return Err(OpenError::Reserved);
         }
         let kind =
-            ok!(SdfKind::from_code(kind), OpenError::Counts { what: Contradiction::FieldCells });
+            ok!(SdfKind::from_code(kind), OpenError::Counts { what: Contradiction::FieldKind });
         if x == 0 || y == 0 || z == 0 {
             return Err(OpenError::Counts { what: Contradiction::FieldCells });
         }
@@ -78,6 +78,9 @@ impl<'a> Sdf<'a> {
             && a.is_finite()
             && b.is_finite()
             && c.is_finite();
+        // No bound of a query may overflow in input units.
+        let reach = base.unsigned_abs() + 256 * step as u32 + greatest(low) + greatest(high) + 2;
+        let is_sound = is_sound && (reach as f32 * unit * (1.0 + 8.0 * f32::EPSILON)).is_finite();
         if !is_sound {
             return Err(OpenError::Counts { what: Contradiction::FieldUnit });
         }
@@ -106,6 +109,19 @@ impl<'a> Sdf<'a> {
             kind,
         })
     }
+}
+
+/// The greatest error of a book.
+const fn greatest(mut book: &[[u8; 2]]) -> u32 {
+    let mut most = 0;
+    while let Some((error, rest)) = book.split_first() {
+        let error = u16::from_le_bytes(*error) as u32;
+        if error > most {
+            most = error;
+        }
+        book = rest;
+    }
+    most
 }
 
 /// Units along so many cells.
