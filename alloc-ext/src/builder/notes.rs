@@ -159,7 +159,8 @@ fn sideless(report: SidesReport) -> String {
 fn of_sdf(report: &SdfReport) -> Vec<String> {
     let mut texts = Vec::new();
     if report.lacks_sides {
-        texts.push("the mesh is not closed, or walls of it were merged: the field's distances have no sign".to_owned());
+        let why = "the mesh is not closed, or walls of it were merged";
+        texts.push(format!("{why}: the field's distances have no sign"));
     }
     let outside = if report.kind == SdfKind::Solid { " outside" } else { "" };
     texts.push(format!(

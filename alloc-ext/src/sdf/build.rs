@@ -5,7 +5,7 @@ use super::domain::{CELL, Domain, bytes};
 use super::encode::{Books, Stored, section};
 use super::prove::{Errors, Proof, Prover};
 use super::samples::Samples;
-use super::truth::{Place, Truth};
+use super::truth::{Side, Truth};
 use crate::bvh::FileSides;
 use crate::emit::Sections;
 use crate::error::BuildError;
@@ -163,7 +163,7 @@ pub fn build(
     let (sum, most, count) = found
         .fold((0.0, 0f64, 0), |(sum, most, count), of| (sum + of.0, most.max(of.1), count + of.2));
     let has_doubt = |cell: &usize| {
-        let is_in_doubt = |sample: &super::samples::Sample| sample.place == Place::Undecided;
+        let is_in_doubt = |sample: &super::samples::Sample| sample.side == Side::Undecided;
         proofs[*cell].is_undecided || samples.cells[*cell].iter().any(is_in_doubt)
     };
     let in_units = 1.0 / f64::from(domain.per_unit);

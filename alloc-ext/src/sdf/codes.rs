@@ -8,7 +8,7 @@ use super::domain::Domain;
 use super::function::Trilinear;
 use super::prove::Errors;
 use super::samples::{Sample, Samples};
-use super::truth::{Place, Truth};
+use super::truth::{Side, Truth};
 use meshsweep_core::SdfKind;
 use meshsweep_core::internal::sdf::format::layout::{MOST_BASE, MOST_STEP};
 use rayon::prelude::*;
@@ -46,9 +46,9 @@ struct Limits {
 
 /// How much a sample counts.
 pub(super) fn weight(sample: Sample, kind: SdfKind, near: f64) -> f64 {
-    match (sample.place, kind) {
-        (Place::Inside, SdfKind::Solid) => 0.0,
-        (Place::Inside, SdfKind::Signed) => 1.0,
+    match (sample.side, kind) {
+        (Side::Inside, SdfKind::Solid) => 0.0,
+        (Side::Inside, SdfKind::Signed) => 1.0,
         _ if f64::from(sample.distance) <= near => 1.0,
         _ => FAR_WEIGHT,
     }
@@ -57,8 +57,8 @@ pub(super) fn weight(sample: Sample, kind: SdfKind, near: f64) -> f64 {
 /// Distance at a corner.
 fn value(sample: Sample, kind: SdfKind, deepest: f64) -> f64 {
     let [low, high] = sample.limits(kind).map(f64::from);
-    match (sample.place, kind) {
-        (Place::Inside, SdfKind::Solid) => f64::max(-f64::from(sample.distance), -deepest),
+    match (sample.side, kind) {
+        (Side::Inside, SdfKind::Solid) => f64::max(-f64::from(sample.distance), -deepest),
         _ => 0.5 * (low + high),
     }
 }

@@ -122,13 +122,13 @@ impl Domain {
         self.cells.iter().map(|n| n + 1).product()
     }
 
-    /// Place of a cell along each axis.
+    /// Side of a cell along each axis.
     pub fn cell(&self, number: usize) -> [usize; 3] {
         let [x, y, _] = self.cells;
         [number % x, number / x % y, number / (x * y)]
     }
 
-    /// Place of a corner along each axis.
+    /// Side of a corner along each axis.
     pub fn corner(&self, number: usize) -> [usize; 3] {
         let [x, y, _] = self.cells.map(|n| n + 1);
         [number % x, number / x % y, number / (x * y)]

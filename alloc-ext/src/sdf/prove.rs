@@ -9,7 +9,7 @@ use super::bound::{flat, greatest, least, most, most_of_facet};
 use super::domain::CELL;
 use super::function::{Linear, Trilinear};
 use super::region::{Near, Region, TIE, parts};
-use super::truth::{Place, Truth};
+use super::truth::{Side, Truth};
 use glam::DVec3;
 use meshsweep_core::SdfKind;
 
@@ -42,7 +42,7 @@ fn needed(
     linear: &Linear,
     region: &Region,
     nears: &[Near],
-    side: Option<Place>,
+    side: Option<Side>,
     wanted: Errors,
 ) -> Errors {
     let negative = linear.negative();
@@ -66,14 +66,14 @@ fn needed(
     };
     let to_zero = || greatest(linear, region);
     match (truth.kind, side) {
-        (SdfKind::Surface, _) | (_, Some(Place::Outside)) => {
+        (SdfKind::Surface, _) | (_, Some(Side::Outside)) => {
             let low = (-least(linear, region, nears)).min(to_zero());
             Errors { low, high: above() }
         }
-        (SdfKind::Solid, Some(Place::Inside)) => Errors { low: to_zero(), high: f64::NEG_INFINITY },
-        (SdfKind::Solid, Some(Place::Undecided)) => Errors { low: to_zero(), high: above() },
-        (_, Some(Place::Inside)) => Errors { low: below(), high: -least(&negative, region, nears) },
-        (_, Some(Place::Undecided)) => Errors { low: below(), high: above() },
+        (SdfKind::Solid, Some(Side::Inside)) => Errors { low: to_zero(), high: f64::NEG_INFINITY },
+        (SdfKind::Solid, Some(Side::Undecided)) => Errors { low: to_zero(), high: above() },
+        (_, Some(Side::Inside)) => Errors { low: below(), high: -least(&negative, region, nears) },
+        (_, Some(Side::Undecided)) => Errors { low: below(), high: above() },
         (kind, None) => {
             let low = if kind == SdfKind::Solid { to_zero() } else { f64::INFINITY };
             let mut errors = Errors { low, high: f64::INFINITY };
@@ -132,7 +132,7 @@ impl<'a> Prover<'a> {
         prover.proof
     }
 
-    fn visit(&mut self, region: &mut Region, start: usize, whole: Option<Place>) {
+    fn visit(&mut self, region: &mut Region, start: usize, whole: Option<Side>) {
         self.proof.boxes += 1;
         let Self { truth, function, corner, nears, .. } = self;
         let side = whole.or_else(|| {
@@ -145,8 +145,8 @@ impl<'a> Prover<'a> {
         let mut found = needed(truth, &linear, region, &nears[start..], side, wanted);
         // Distances inside are negative.
         let (towards, by_least): (_, fn(&Errors, &Errors) -> bool) = match (side, truth.kind) {
-            (Some(Place::Outside), _) => (linear, |found, wanted| found.low > wanted.low),
-            (Some(Place::Inside), SdfKind::Signed) => {
+            (Some(Side::Outside), _) => (linear, |found, wanted| found.low > wanted.low),
+            (Some(Side::Inside), SdfKind::Signed) => {
                 (linear.negative(), |found, wanted| found.high > wanted.high)
             }
             _ => (linear, |_, _| false),
@@ -159,7 +159,7 @@ impl<'a> Prover<'a> {
             let errors = &mut self.proof.errors;
             errors.low = errors.low.max(found.low);
             errors.high = errors.high.max(found.high);
-            self.proof.is_undecided |= side == Some(Place::Undecided);
+            self.proof.is_undecided |= side == Some(Side::Undecided);
             return;
         }
         let half = 0.5 * region.half;

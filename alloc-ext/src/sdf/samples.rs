@@ -3,7 +3,7 @@
 
 use super::domain::{CELL, Domain};
 use super::region::{Near, TIE};
-use super::truth::{Place, Truth};
+use super::truth::{Side, Truth};
 use crate::error::BuildError;
 use crate::progress::Watch;
 use glam::DVec3;
@@ -14,7 +14,7 @@ use meshsweep_core::SdfKind;
 pub(super) struct Sample {
     /// Units.
     pub distance: f32,
-    pub place: Place,
+    pub side: Side,
 }
 
 impl Sample {
@@ -22,12 +22,12 @@ impl Sample {
     /// solid field.
     pub fn limits(self, kind: SdfKind) -> [f32; 2] {
         let d = self.distance;
-        match (self.place, kind) {
-            (Place::Outside, _) | (_, SdfKind::Surface) => [d, d],
-            (Place::Inside, SdfKind::Solid) => [0.0, f32::NEG_INFINITY],
-            (Place::Undecided, SdfKind::Solid) => [0.0, d],
-            (Place::Inside, _) => [-d, -d],
-            (Place::Undecided, _) => [-d, d],
+        match (self.side, kind) {
+            (Side::Outside, _) | (_, SdfKind::Surface) => [d, d],
+            (Side::Inside, SdfKind::Solid) => [0.0, f32::NEG_INFINITY],
+            (Side::Undecided, SdfKind::Solid) => [0.0, d],
+            (Side::Inside, _) => [-d, -d],
+            (Side::Undecided, _) => [-d, d],
         }
     }
 }
@@ -67,7 +67,7 @@ impl Samples {
 }
 
 fn of_cell(truth: &Truth<'_>, corner: DVec3, steps: usize) -> Vec<Sample> {
-    let none = Sample { distance: 0.0, place: Place::Outside };
+    let none = Sample { distance: 0.0, side: Side::Outside };
     let mut samples = vec![none; side_of(steps).pow(3)];
     let mut nears: Vec<Near> = Vec::new();
     let half = DVec3::splat(0.5 * CELL);
@@ -86,7 +86,7 @@ fn of_cell(truth: &Truth<'_>, corner: DVec3, steps: usize) -> Vec<Sample> {
             let ties = nears.iter().filter(|near| near.distance <= distance + TIE);
             truth.side(p, ties.copied())
         };
-        let place = (region.least > region.radius)
+        let side_of_all = (region.least > region.radius)
             .then(|| side(&nears[count..], region.centre, region.distance));
         let [x, y, z] = block.map(|at| {
             let last = usize::from(at + 1 == blocks);
@@ -96,17 +96,17 @@ fn of_cell(truth: &Truth<'_>, corner: DVec3, steps: usize) -> Vec<Sample> {
             for j in y.clone() {
                 for i in x.clone() {
                     let p = corner + DVec3::from([i, j, k].map(|at| at as f64)) * step;
-                    let sample = match place {
-                        Some(place) => {
+                    let sample = match side_of_all {
+                        Some(side) => {
                             let (_, point) = truth.facets.nearest(&region, &nears[count..end], p);
-                            Sample { distance: (p - point).length() as f32, place }
+                            Sample { distance: (p - point).length() as f32, side }
                         }
                         None => {
                             let boxed = [p, DVec3::ZERO];
                             let at = truth.facets.narrow(&region, count..end, boxed, &mut nears);
-                            let place = side(&nears[end..], p, at.distance);
+                            let side = side(&nears[end..], p, at.distance);
                             nears.truncate(end);
-                            Sample { distance: at.distance as f32, place }
+                            Sample { distance: at.distance as f32, side }
                         }
                     };
                     samples[i + side_of(steps) * (j + side_of(steps) * k)] = sample;

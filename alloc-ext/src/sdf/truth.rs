@@ -18,7 +18,7 @@ use meshsweep_core::SdfKind;
 
 /// Side of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum Side {
     Outside,
     Inside,
     /// The winding number is neither 0 nor 1, or the file does not tell it.
@@ -59,7 +59,7 @@ impl<'a> Truth<'a> {
 
     /// The side of a point of the frame that is not on the surface. `nears` are the triangles that
     /// may be nearest to it; `None` if they do not tell.
-    fn side_by(&self, p: DVec3, nears: impl Iterator<Item = Near>) -> Option<Place> {
+    fn side_by(&self, p: DVec3, nears: impl Iterator<Item = Near>) -> Option<Side> {
         let mut side = None;
         for near in nears {
             let facet = self.facets.facet(near.facet()?);
@@ -69,8 +69,8 @@ impl<'a> Truth<'a> {
             if !facet.tells_side || !is_certain {
                 return None;
             }
-            let place = if height > 0.0 { Place::Outside } else { Place::Inside };
-            if *side.get_or_insert(place) != place {
+            let seen = if height > 0.0 { Side::Outside } else { Side::Inside };
+            if *side.get_or_insert(seen) != seen {
                 return None;
             }
         }
@@ -78,22 +78,22 @@ impl<'a> Truth<'a> {
     }
 
     /// The side of a point of the frame that is not on the surface.
-    pub fn side(&self, p: DVec3, nears: impl Iterator<Item = Near>) -> Place {
-        let Some(Windings { sides, tree }) = &self.windings else { return Place::Outside };
+    pub fn side(&self, p: DVec3, nears: impl Iterator<Item = Near>) -> Side {
+        let Some(Windings { sides, tree }) = &self.windings else { return Side::Outside };
         if let Some(side) = self.side_by(p, nears) {
             return side;
         }
         if sides.is_mixed {
-            return Place::Undecided;
+            return Side::Undecided;
         }
         let p = sides.place(self.domain.input_place(p));
         let winding = tree.winding(p, |_| 1);
         let filed =
             sides.times.as_ref().map_or(winding, |times| tree.winding(p, |face| times[face]));
         match (winding, filed) {
-            (0, 0) => Place::Outside,
-            (1, 1 | -1) => Place::Inside,
-            _ => Place::Undecided,
+            (0, 0) => Side::Outside,
+            (1, 1 | -1) => Side::Inside,
+            _ => Side::Undecided,
         }
     }
 }

@@ -950,16 +950,16 @@ float msw_sdf_unit(const msw_sdf *field);
  * If the side of a point is not certain, it contains the distance with both signs. Outside of the
  * field the distance from the field is added. MSW_ERROR_OUT_OF_DOMAIN: farther than 2^60 units.
  * Cost on a Cortex-M4F: some 200 instructions for every point of the field; on a Cortex-M0, which
- * converts floats by calls, ten times as much: see msw_sdf_distance_in_units. */
+ * converts floats by calls, several times as much: see msw_sdf_distance_in_units. */
 int32_t msw_sdf_distance(const msw_sdf *field, const float point[3], msw_sdf_answer *answer);
 
 /* The same, and the gradient there: the direction of a force or of a step. Outside of the field it
- * leads away from the surface. Cost: two of msw_sdf_distance. */
+ * leads away from the surface. Cost: half more than msw_sdf_distance. */
 int32_t msw_sdf_distance_and_gradient(const msw_sdf *field, const float point[3],
                                       msw_sdf_gradient_answer *answer);
 
 /* Whether the mesh is at most `distance` from `point`; of a field of kind solid the mesh with its
- * inside. Undecided if the interval of msw_sdf_distance contains `distance`: treat it as MSW_YES.
+ * inside. Undecided if the interval has lengths on both sides of `distance`: treat it as MSW_YES.
  * MSW_ERROR_TOLERANCE: the distance is negative, NaN or infinite. */
 int32_t msw_sdf_within(const msw_sdf *field, const float point[3], float distance,
                        msw_verdict_answer *answer);
@@ -969,8 +969,9 @@ int32_t msw_sdf_within(const msw_sdf *field, const float point[3], float distanc
 int32_t msw_sdf_units_of(const msw_sdf *field, const float point[3], int32_t place[3]);
 
 /* Bounds of the distance of a place, both in units of the field: no floating point. Above 0 the
- * place is outside, below 0 inside, unless the field is of kind surface. Outside of the field the
- * bounds are wider. MSW_ERROR_OUT_OF_DOMAIN: farther than 2^28 units. */
+ * place is outside, below 0 inside, unless the field is of kind surface. They hold of the place
+ * itself: if a point was rounded to it, add a unit on each side. Outside of the field the bounds are
+ * wider. MSW_ERROR_OUT_OF_DOMAIN: farther than 2^28 units. */
 int32_t msw_sdf_distance_in_units(const msw_sdf *field, const int32_t place[3],
                                   msw_sdf_units *answer);
 

@@ -5,7 +5,8 @@
 //! one today has no bound of its error, or one bound for all of it, and then the worst cell decides:
 //! a cell at a sharp edge or in a thin wall. Here each cell has errors of its own, one below and one
 //! above, in one byte: numbers in two books of sixteen. The interval is 2.5 to 40 times narrower for
-//! the same bytes (*historical*; a plain lattice beside it: `alloc-ext/src/sdf/mod.rs`).
+//! the same bytes (*historical*). `build` prints the mean width, and that of the widest cell, which a
+//! plain lattice would have everywhere.
 //!
 //! *Units.* Points, distances and errors are whole numbers of one unit, a 2048th of a cell. So a
 //! processor without floating point needs no conversion, and every number of a query fits 32 bits.

@@ -20,6 +20,8 @@ impl Sdf<'_> {
     /// Bounds of the distance of a place, both in [units](Sdf::unit). Places count from the
     /// field's least corner, which is half a unit above [`bounds`](Sdf::bounds)`()[0]`.
     ///
+    /// The bounds hold of the place itself: if a point was rounded to it, add a unit on each side.
+    ///
     /// The meaning is that of [`distance`](Sdf::distance), and no bit of the interval is lost by
     /// conversions: it is up to two units narrower. Above 0 the place is outside, below 0 inside,
     /// if the [kind](Sdf::kind) tells sides. Outside of the field, the greatest and the sum of the
@@ -43,7 +45,7 @@ impl Sdf<'_> {
     /// The gradient at a place, in 2^-15: the direction in which the distance rises the most. See
     /// [`distance_and_gradient`](Sdf::distance_and_gradient).
     ///
-    /// Cost: that of [`distance_in_units`](Self::distance_in_units) and a fifth.
+    /// Cost: about that of [`distance_in_units`](Self::distance_in_units).
     ///
     /// # Errors
     /// [`QueryError::OutOfDomain`] outside of the field.

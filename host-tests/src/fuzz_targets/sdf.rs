@@ -30,7 +30,7 @@ pub fn ask_sdf(field: &Sdf<'_>) {
     let [least, greatest] = field.bounds();
     ask(field, least, 1e20);
     ask(field, greatest, 0.0);
-    let whole = field.cells().map(|cells| 2048 * cells as i32);
+    let whole = field.cells().map(|cells| 2048 * cells.cast_signed());
     for place in [[0; 3], whole, whole.map(|x| x - 1), whole.map(|x| x / 2), [i32::MIN; 3]] {
         if let Ok(found) = field.distance_in_units(place) {
             assert!(found.lower <= found.upper, "{found:?}");

@@ -52,13 +52,14 @@ fn lattices() -> impl Iterator<Item = (Vec<u8>, u64)> {
 
 fn place(rng: &mut Rng, field: &Sdf<'_>) -> [i64; 3] {
     field.cells().map(|cells| {
-        let end = 2048 * cells as usize - 1;
+        let cells = cells as usize;
         // Corners and sides of cells too.
-        match rng.below(4) {
-            0 => (2048 * rng.below(cells as usize)) as i64,
-            1 => (2048 * (1 + rng.below(cells as usize)) - 1) as i64,
-            _ => rng.below(end + 1) as i64,
-        }
+        let place = match rng.below(4) {
+            0 => 2048 * rng.below(cells),
+            1 => 2048 * (1 + rng.below(cells)) - 1,
+            _ => rng.below(2048 * cells),
+        };
+        place.cast_signed() as i64
     })
 }
 
@@ -182,7 +183,10 @@ fn bounds_in_units_of_a_ball_hold_outside_of_the_field() {
     let (field, mut rng) = (Sdf::open(&bytes).expect("opens"), Rng::new(3));
     for round in 0..10_000 {
         let reach = [30_000, 100_000, 1 << 28][round % 3];
-        let place = [0; 3].map(|_| rng.below(2 * reach + 1) as i32 - reach as i32);
+        let place = [0; 3].map(|_| {
+            let from = rng.below(2 * reach + 1) as u32;
+            from.cast_signed() - (reach as u32).cast_signed()
+        });
         let centre = 6.0 * 2048.0;
         let square = place.iter().map(|&x| (f64::from(x) - centre).powi(2)).sum::<f64>();
         let truth = square.sqrt() - 3.0 * 2048.0;

@@ -28,7 +28,7 @@ fn point(
     number: usize,
 ) -> [f32; 3] {
     let [low, high] = field.bounds();
-    if number % 2 == 0 {
+    if number.is_multiple_of(2) {
         return [0, 1, 2].map(|k| (low[k] + (high[k] - low[k]) * rng.unit_f64()) as f32);
     }
     let triangle = triangles[rng.below(triangles.len())];
