@@ -58,7 +58,7 @@ fn prove(bytes: &[u8], input: Input<'_>) -> Result<[usize; 2], Unproved> {
     let cell = Cell { field: &field, sides: sides.as_ref(), moved };
     let prove = |number| cell.prove(number, &triangles, &index);
     let proofs: Vec<Result<usize, Unproved>> = (0..cells).into_par_iter().map(prove).collect();
-    // A wrong claim says more than one that is open, and the first one always the same.
+    // A refuted cell goes before an unproved one. Among equals the first by number is told.
     let (mut boxes, mut open) = (0, None);
     for proof in proofs {
         match proof {

@@ -3,6 +3,11 @@
 //! The function is linear about the box's centre, but for a rest that is bounded. All bounds are of
 //! the second order of the box's size, where the surface is smooth as seen from there.
 //!
+//! *Symbols.* d: distance from the surface; s: signed distance, negative inside. F: the cell's
+//! function, g its gradient at the centre c. h: half extents of the box, r: half its diagonal. q: a
+//! point of the surface, at first the nearest to c. n: unit vector from a triangle to c, D: how far c
+//! is above the triangle along it.
+//!
 //! *Least.* d(x) is the least distance of a triangle, and each is at least linear
 //! ([`super::region`]). So d − F is at least the least of D − Σ |n − g|ₖ hₖ.
 //!

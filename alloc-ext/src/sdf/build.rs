@@ -38,7 +38,7 @@ fn of_field([units, part]: [f64; 2], domain: &Domain) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SdfOptions {
-    /// Most bytes of the section.
+    /// Most bytes of the section. Fewer than 105 count as 105: the header and one cell.
     pub bytes: u32,
     /// Distance about the mesh's box that the field covers, in the mesh's unit. `None`: a tenth of
     /// the box's diagonal.
@@ -70,16 +70,16 @@ impl SdfOptions {
 pub struct SdfReport {
     /// What distances mean.
     pub kind: SdfKind,
-    /// Whether the mesh has no sides, so that no kind but surface was possible.
+    /// Whether no kind was asked for and the mesh has no sides, so that a surface field was built.
     pub lacks_sides: bool,
     /// Cells along each axis.
     pub cells: [usize; 3],
     /// Bytes of the section.
     pub bytes: usize,
-    /// Mean width of the intervals up to a tenth of the diagonal from the surface, of a solid field
-    /// outside.
+    /// Mean width of the intervals at the samples up to a tenth of the diagonal from the surface. Of
+    /// a signed field all samples inside count too, of a solid one none.
     pub mean_width: f64,
-    /// Largest width of the samples there; a cell's errors may be wider between them.
+    /// Largest width at those samples. Between them an interval that is cut at 0 may be wider.
     pub largest_width: f64,
     /// Largest error of a cell, below or above.
     pub largest_error: f64,
@@ -98,9 +98,12 @@ pub struct SdfReport {
 /// Cost: some seconds, for samples and proof. `watch` can end it.
 ///
 /// # Errors
-/// [`BuildError::Empty`]; [`BuildError::NoSides`] of a signed or solid field of a mesh without
-/// sides; [`BuildError::FieldUnit`], [`BuildError::MarginTooLarge`] of a size that the field's unit
-/// cannot have; [`BuildError::FieldTooWide`]; [`BuildError::Cancelled`].
+/// [`BuildError::Empty`]: no triangle. [`BuildError::NegativeMargin`].
+/// [`BuildError::MarginTooLarge`]: mesh and margin leave the range of f32.
+/// [`BuildError::FieldUnit`]: a unit is no normal f32, or f32 cannot place the lattice about the
+/// mesh. [`BuildError::NoSides`]: a signed or solid field of a mesh that is not closed, or whose
+/// walls were merged. [`BuildError::FieldTooWide`]: an error does not fit 16 bits.
+/// [`BuildError::Cancelled`].
 pub fn build(
     input: Input<'_>,
     options: &SdfOptions,

@@ -1,8 +1,9 @@
 //! Codes of the lattice's corners.
 //!
-//! They begin at the rounded distances. Then each moves up or down by one, as long as the eight
-//! cells about it get narrower, weighted by where questions are. Corners of one parity along all
-//! axes share no cell, so they move at once, and the codes do not depend on the number of threads.
+//! They begin at the rounded distances. In each round every code moves, one step at a time, while the
+//! weighted width of the eight cells about its corner falls. Corners whose x, y and z have the same
+//! three parities share no cell, so they move at once, and the codes do not depend on the number of
+//! threads.
 
 use super::domain::Domain;
 use super::function::Trilinear;
@@ -139,8 +140,8 @@ impl Codes {
         }
     }
 
-    /// The code of a corner with which the cells about it are narrowest, among those next to the
-    /// present one.
+    /// The code of a corner with which the cells about it are narrowest, found by single steps from
+    /// the present one.
     fn best(&self, domain: &Domain, steps: usize, limits: &[Limits], number: usize) -> u8 {
         let at = domain.corner(number);
         let mut cells = Vec::with_capacity(8);

@@ -95,7 +95,7 @@ fn needed(
     }
 }
 
-/// Proves cells one after another.
+/// The proof of one cell in progress.
 pub(super) struct Prover<'a> {
     truth: &'a Truth<'a>,
     function: Trilinear,

@@ -42,11 +42,14 @@ impl Sdf<'_> {
     /// [`kind`](Sdf::kind): signed distances are negative inside, and the distance to a solid is 0
     /// inside. If the side of a point of a signed field is not certain, the interval contains the
     /// distance with both signs. Side: `Outside` if the lower end is above 0, `Inside` if the upper
-    /// end is below 0; else undecided for [`OnSurface`](Undecided::OnSurface). A field of kind
-    /// [`Surface`](SdfKind::Surface) tells no side: [`OpenMesh`](Undecided::OpenMesh).
+    /// end is below 0; else undecided for [`OnSurface`](Undecided::OnSurface), also far from the
+    /// surface where the winding number is neither 0 nor 1. A field of kind
+    /// [`Solid`](SdfKind::Solid) never says `Inside`. One of kind [`Surface`](SdfKind::Surface) tells
+    /// no side: [`OpenMesh`](Undecided::OpenMesh).
     ///
-    /// Outside of the field the interval is wider: the distance from the field is added to that at
-    /// the nearest place of it.
+    /// Outside of the field, let e be the distance from the field, and a to b the interval at the
+    /// nearest place of it. The interval is √(e² + a²) to e + b, from e if a is below 0. Its upper
+    /// end may be infinite.
     ///
     /// Cost: one look-up, the same for every point of the field; no scratch memory. Without
     /// floating point the conversions cost several times the look-up:
@@ -69,9 +72,11 @@ impl Sdf<'_> {
     /// [`distance`](Self::distance), and the gradient at the point: the direction in which the
     /// distance rises the most, of a length near 1.
     ///
-    /// The gradient is that of the trilinear function, which jumps at the sides of cells. It carries
-    /// no guarantee: use it as a direction, of a force or of a step. Outside of the field it leads
-    /// away from where the nearest place of the field sees the surface.
+    /// The gradient is that of the trilinear function. It jumps between cells and carries no
+    /// guarantee: use it as a direction, of a force or of a step. It is short, or zero, where nearest
+    /// points lie on opposite sides, and means nothing inside of a field of kind
+    /// [`Solid`](SdfKind::Solid). Outside of the field it leads from about the nearest point of the
+    /// surface to `point`, with length 1 at most.
     ///
     /// Cost: half more than [`distance`](Self::distance).
     ///
@@ -96,8 +101,10 @@ impl Sdf<'_> {
         })
     }
 
-    /// Whether the mesh is at most `distance` from `point`, both in input units. Of a field of kind
-    /// [`Solid`](SdfKind::Solid) the mesh with its inside: `No` only outside.
+    /// Whether the surface is at most `distance` from `point`, both in input units. Of a field of
+    /// kind [`Solid`](SdfKind::Solid) whether the solid is: a point inside is never `No`. Of the
+    /// others a point deep inside is `No`, for the sign is not looked at: a guard takes a field of
+    /// kind solid.
     ///
     /// Undecided for [`Resolution`](Undecided::Resolution) if the interval of
     /// [`distance`](Self::distance) holds lengths on both sides of `distance`, without their sign.
@@ -162,9 +169,9 @@ impl Sdf<'_> {
 /// Bounds of the distance of a point outside of the field, from those at the nearest place of the
 /// field and from how far it is beyond.
 ///
-/// The mesh lies in the field, and the field is convex. So the way from the point to the nearest
-/// place, and from there to any point of the mesh, turn by a right angle or less: the distance is
-/// at least the root of the sum of both squares. It is at most the sum.
+/// The mesh lies in the field, and the field is convex. So at the nearest place the directions to
+/// the point and to any point of the mesh are a right angle or more apart: the squared distance is
+/// at least the sum of both squares. The distance is at most the sum of both.
 #[cold]
 #[inline(never)]
 fn bounds_beyond([lower, upper]: [i32; 2], [x, y, z]: [f32; 3]) -> [f32; 2] {

@@ -33,7 +33,8 @@ impl Sdf<'_> {
         self.beyond(point)
     }
 
-    /// The units of a point, in f32. Truncated, they are rounded to nearest.
+    /// The point in units from the origin, f32. Truncation rounds it to the nearest unit from corner
+    /// 0.
     #[inline(always)]
     fn unrounded(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
         let [a, b, c] = self.origin;
@@ -63,7 +64,7 @@ impl Sdf<'_> {
     }
 
     /// Whole units nearest to a point, for [`distance_in_units`](Self::distance_in_units): within
-    /// 9/16 of a unit along each axis. Units count from the field's least corner.
+    /// 9/16 of a unit along each axis. Units count from corner 0 of the lattice.
     ///
     /// Firmware without floating point computes its points in units from the start; this function
     /// shows how they lie.

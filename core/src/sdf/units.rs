@@ -17,20 +17,19 @@ pub struct UnitDistance {
 }
 
 impl Sdf<'_> {
-    /// Bounds of the distance of a place, both in [units](Sdf::unit). Places count from the
-    /// field's least corner, which is half a unit above [`bounds`](Sdf::bounds)`()[0]`.
+    /// Bounds of the distance of a place, both in [units](Sdf::unit). Places count from corner 0 of
+    /// the lattice, half a unit above [`bounds`](Sdf::bounds)`()[0]` along each axis.
     ///
     /// The bounds hold of the place itself: if a point was rounded to it, add a unit on each side.
-    ///
-    /// The meaning is that of [`distance`](Sdf::distance), and no bit of the interval is lost by
-    /// conversions: it is up to two units narrower. Above 0 the place is outside, below 0 inside,
-    /// if the [kind](Sdf::kind) tells sides. Outside of the field, the greatest and the sum of the
-    /// coordinates' distances from the field stand for the distance from it.
+    /// The distances mean the same as those of [`distance`](Sdf::distance), and no rounding of f32 is
+    /// added. Of a field of kind signed a place is outside if `lower` is above 0, and inside if
+    /// `upper` is below 0; of kind solid only outside is told. Outside of the field, the greatest of
+    /// the coordinates' distances from it stands below, and their sum above.
     ///
     /// Cost: one look-up in integers, the same for every place of the field; no scratch memory.
     ///
     /// # Errors
-    /// [`QueryError::OutOfDomain`] farther than 2^28 units from the field's least corner.
+    /// [`QueryError::OutOfDomain`] if a coordinate is beyond 2^28.
     #[inline(never)]
     pub fn distance_in_units(&self, place: [i32; 3]) -> Result<UnitDistance, QueryError> {
         let whole = each(place, i32::cast_unsigned);
@@ -42,8 +41,8 @@ impl Sdf<'_> {
         self.distance_beyond(place)
     }
 
-    /// The gradient at a place, in 2^-15: the direction in which the distance rises the most. See
-    /// [`distance_and_gradient`](Sdf::distance_and_gradient).
+    /// The gradient at a place, 32,768 for 1: the direction in which the distance rises the most. See
+    /// [`distance_and_gradient`](Sdf::distance_and_gradient). Outside of the field there is none.
     ///
     /// Cost: about that of [`distance_in_units`](Self::distance_in_units).
     ///

@@ -1,10 +1,10 @@
 //! The interval at a place of the field, in integers.
 //!
-//! Codes of the eight corners are interpolated along x and y without a loss: 8 bits and twice 11.
-//! Along z the difference loses its last 11 bits, so that the product fits 32. The step of the
-//! codes multiplies the upper 18 bits. All shifts round down, so the value is at most
-//! [`value_loss`](super::format::layout::value_loss) units too small; the builder adds them to the
-//! errors above.
+//! Codes have 8 bits. Interpolation along x and then y adds 11 bits each and loses nothing: 30 bits.
+//! Along z the difference first drops its last 11 bits, so that the product fits 32. The upper 18
+//! bits, ten of them below a code, are multiplied by the step. All shifts round down, so the value is
+//! at most [`value_loss`](super::format::layout::value_loss) units too small. The builder adds these
+//! to the errors above.
 
 use super::format::Sdf;
 use super::format::layout::{CELL_UNITS, FRACTION_BITS, VALUE_BITS};
@@ -49,7 +49,7 @@ fn both<T, U>([s, t]: [T; 2], f: impl Fn(T) -> U) -> [U; 2] {
     [f(s), f(t)]
 }
 
-/// Codes at the ends of a row.
+/// Codes at both ends of a cell's edge along x.
 #[inline(always)]
 fn pair(codes: &[u8], at: usize) -> Option<[i32; 2]> {
     let [s, t] = *codes.get(at..)?.first_chunk::<2>()?;
@@ -62,7 +62,7 @@ fn split(units: u32) -> (u32, i32) {
     (units >> FRACTION_BITS, (units & (CELL_UNITS.unsigned_abs() - 1)).cast_signed())
 }
 
-/// Between two numbers, times 2048.
+/// From `s` to `t` at `place` of 2048, times 2048.
 #[inline(always)]
 fn lerp([s, t]: [i32; 2], place: i32) -> i32 {
     (s << FRACTION_BITS).wrapping_add(t.wrapping_sub(s).wrapping_mul(place))
@@ -126,7 +126,7 @@ impl Sdf<'_> {
     }
 
     /// The gradient of the trilinear function at a place, in 2^-15: about 1 in length where the
-    /// surface is far from a cell's size.
+    /// distance is nearly linear in the cell.
     #[inline(always)]
     pub(super) fn slopes(&self, place: [u32; 3]) -> Result<[i32; 3], QueryError> {
         Ok(self.slopes_at(&self.corners(place).ok_or(QueryError::Unchecked)?))

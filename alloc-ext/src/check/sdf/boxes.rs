@@ -14,7 +14,7 @@
 //! surface, from below the way up does, both within the ball. The nearest point of the surface is
 //! in the ball, hence in the slab. So the signed distance is between t − δ and t + δ.
 //!
-//! *Else* the distance is at most d + r.
+//! *Else* the distance is at most that of the centre and r.
 
 use super::parse::{CELL, Field, Trilinear};
 use super::sides::{Side, Sides};
@@ -25,8 +25,8 @@ use glam::DVec3;
 /// they are others.
 const MARGIN: f64 = 1.0 / (1 << 24) as f64;
 
-/// Boxes of no larger radius than this part of a cell's are not halved: a claim without slack is
-/// not proved.
+/// Boxes of this radius or less are not halved, in sides of a cell: an eighth of a unit. A claim
+/// without slack stays unproved.
 const SMALLEST: f64 = 1.0 / 16_384.0;
 
 /// Boxes of one cell.
@@ -172,7 +172,7 @@ impl Seen {
 /// What came of a box.
 enum Found {
     Proved,
-    /// Not, and the side of all of it, if it has one.
+    /// Not proved. The side of the box, if the surface does not cross it.
     Open(Option<Side>),
 }
 

@@ -37,7 +37,7 @@ impl Field {
         }
         // The inverse of the real number `per_unit`, to nearest.
         if unit as f32 != (1.0 / per_unit) as f32 {
-            return Err(format!("a unit of {unit:e}, and {per_unit:e} in one of the mesh"));
+            return Err(format!("the unit {unit:e} is not 1 / {per_unit:e}, rounded to f32"));
         }
         let mut book = || (0..16).map(|_| cursor.uint(2).map(f64::from)).collect();
         let (low, high): (Result<Vec<f64>, String>, Result<Vec<f64>, String>) = (book(), book());

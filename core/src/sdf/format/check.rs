@@ -43,7 +43,8 @@ impl<'a> Sdf<'a> {
         Sdf::locate(&ok!(SectionTable::view(bytes)))
     }
 
-    /// All there is to check of codes and errors is their number: any of them is sound.
+    /// Of codes and errors only the number is checked: every byte is a valid code, or two numbers in
+    /// the books.
     const fn locate(table: &SectionTable<'a>) -> Result<Sdf<'a>, OpenError> {
         let data = table.bytes(SectionKind::Sdf);
         let malformed = table.malformed(SectionKind::Sdf);
@@ -69,7 +70,7 @@ impl<'a> Sdf<'a> {
         let origin @ [a, b, c] = header.corner(field::ORIGIN);
         let per_unit = f32::from_bits(header.word(field::PER_UNIT));
         let unit = f32::from_bits(header.word(field::UNIT));
-        // Of the inverse rounded to nearest, the product is within one unit of rounding.
+        // The unit is the inverse, rounded to nearest: the product is within EPSILON of 1.
         let defect = (unit * per_unit - 1.0).abs();
         let is_sound = per_unit.is_normal()
             && per_unit > 0.0
@@ -79,8 +80,8 @@ impl<'a> Sdf<'a> {
             && b.is_finite()
             && c.is_finite();
         // No bound of a query may overflow in input units.
-        let reach = base.unsigned_abs() + 256 * step as u32 + greatest(low) + greatest(high) + 2;
-        let is_sound = is_sound && (reach as f32 * unit * (1.0 + 8.0 * f32::EPSILON)).is_finite();
+        let largest = base.unsigned_abs() + 256 * step as u32 + greatest(low) + greatest(high) + 2;
+        let is_sound = is_sound && (largest as f32 * unit * (1.0 + 8.0 * f32::EPSILON)).is_finite();
         if !is_sound {
             return Err(OpenError::Counts { what: Contradiction::FieldUnit });
         }

@@ -10,31 +10,31 @@ pub const CELL_UNITS: i32 = 1 << FRACTION_BITS;
 pub const VALUE_BITS: u32 = 10;
 /// Most cells along an axis: fewer than 2^19 units, so that f32 tells units apart.
 pub const MOST_CELLS: u8 = u8::MAX;
-/// Largest distance of two codes, in units: the product with a value has 31 bits.
+/// Largest step from one code to the next, units: its product with a value has 31 bits.
 pub const MOST_STEP: u16 = 1 << 13;
-/// Largest distance of code 0, in units, without sign.
+/// Largest base, the distance that code 0 stands for, units, without sign.
 pub const MOST_BASE: i32 = 1 << 28;
 /// Errors in each of the two books.
 pub const BOOK: usize = 16;
 
-/// Units by which the value of a place is less than that of the trilinear function, at most:
-/// one for the last shift; of the step one part in 1024 for the shift before it, and one part in
-/// 2048 for that of the third axis.
+/// Largest loss of a query's shifts, units: 1 for the last, step/1024 for the shift to 18 bits,
+/// step/2048 for the shift along z. A value is never too large.
 pub const fn value_loss(step: u16) -> u32 {
     1 + (3 * step as u32).div_ceil(2048)
 }
 
 /// Offsets in the header.
 pub mod field {
-    /// Three f32: input units. Corner 0 of the lattice is half a unit above, along each axis.
+    /// Three f32, input units: the origin, half a unit below corner 0 of the lattice along each axis.
+    /// So truncating (point − origin) · per_unit rounds to the nearest unit from corner 0.
     pub const ORIGIN: usize = 0;
     /// f32: units in one input unit.
     pub const PER_UNIT: usize = 12;
     /// f32: the inverse of that, rounded to nearest.
     pub const UNIT: usize = 16;
-    /// i32: distance of code 0, units.
+    /// i32: the distance that code 0 stands for, units.
     pub const BASE: usize = 20;
-    /// u16: distance of two codes, units.
+    /// u16: units from one code to the next.
     pub const STEP: usize = 24;
     /// u8: an [`SdfKind`](super::super::SdfKind).
     pub const KIND: usize = 26;

@@ -16,7 +16,8 @@ pub enum SdfKind {
     Surface,
     /// The signed distance to the surface, negative inside. Of closed meshes.
     Signed,
-    /// The distance to the solid: 0 inside. Of closed meshes. Thin walls cost nothing.
+    /// The distance to the solid: 0 inside. Of closed meshes. A wall thinner than a cell
+    /// does not widen the interval.
     Solid,
 }
 
@@ -52,17 +53,17 @@ pub struct SdfHeader {
     pub per_unit: f32,
     /// A unit in input units, rounded to nearest.
     pub unit: f32,
-    /// Distance of code 0, units.
+    /// The distance that code 0 stands for, units.
     pub base: i32,
-    /// Distance of two codes, units.
+    /// Units from one code to the next.
     pub step: u16,
     /// What the distances mean.
     pub kind: SdfKind,
     /// Cells along each axis.
     pub cells: [u8; 3],
-    /// Errors below, units.
+    /// Book: how far the distance may be below the trilinear function, units.
     pub low: [u16; BOOK],
-    /// Errors above, units.
+    /// Book: how far the distance may be above it, and the loss of a query's shifts, units.
     pub high: [u16; BOOK],
 }
 
@@ -153,7 +154,8 @@ impl Sdf<'_> {
         self.unit
     }
 
-    /// Least and greatest corner of the field in input units, rounded to nearest.
+    /// The box of the points that round into the field: the origin, half a unit below corner 0 of the
+    /// lattice along each axis, and the opposite corner. Input units, rounded to nearest.
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         let [x, y, z] = self.units;
         let [a, b, c] = self.origin;

@@ -10,7 +10,7 @@ use meshsweep_suite::ask::{Asked, sdf};
 
 ask! {
     ask_distance: sdf::Sdf<'t>, |field, input, scratch, fold| {
-        let () = scratch;
+        let sdf::Scratch = scratch;
         sdf::distance(field, input.a, &mut Asked::new((), fold))
     };
 }
