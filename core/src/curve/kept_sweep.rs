@@ -30,6 +30,9 @@ pub struct CurveSweep<'m, 'a> {
     best: Option<u32>,
     /// Whether the queue holds a search that may go on.
     is_begun: bool,
+    /// Whether this search was begun anew because its queue had overflowed. It is not begun a second
+    /// time before an answer, so that calls with few steps come to an end.
+    is_second: bool,
 }
 
 impl<'a> Curve<'a> {
@@ -73,7 +76,15 @@ impl<'a> Curve<'a> {
             return Err(QueryError::NoScratch);
         }
         let queue = SweepQueue::best_first(scratch);
-        Ok(CurveSweep { curve: *self, queue, p, moved: 0.0, best: None, is_begun: false })
+        Ok(CurveSweep {
+            curve: *self,
+            queue,
+            p,
+            moved: 0.0,
+            best: None,
+            is_begun: false,
+            is_second: false,
+        })
     }
 }
 
@@ -88,6 +99,7 @@ impl CurveSweep<'_, '_> {
         self.p = p;
         // A distance beyond f64 is infinite.
         self.is_begun &= self.moved <= SWEEP_MOTION;
+        self.is_second = false;
         Ok(())
     }
 
@@ -133,10 +145,12 @@ impl CurveSweep<'_, '_> {
             self.best = search.number();
             let ended = search.ended(&how);
             // A run that was dropped may be the nearest, so the search begins once more.
-            if ended == Ended::Scratch && !is_new && work.opened < budget.steps {
-                self.is_begun = false;
+            let may_repeat = !is_new && !self.is_second && work.opened < budget.steps;
+            if ended == Ended::Scratch && may_repeat {
+                (self.is_begun, self.is_second) = (false, true);
                 continue;
             }
+            self.is_second &= ended == Ended::Steps;
             return search.answer(&capsules, false, work, ended);
         }
     }

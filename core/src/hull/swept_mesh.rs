@@ -164,7 +164,8 @@ impl<'t, G: Geometry<'t>> Refining<'_, '_, G> {
         let face = Candidate { corners, radius, instance, refinable };
         let [bound, ..] = self.nearest.bounds(core::slice::from_ref(&face));
         if bound <= self.nearest.limit_f32 && !self.state.perform_with_required(tables, split)? {
-            self.left = self.left.max(radius);
+            // A radius may be 0, and something is left all the same.
+            self.left = self.left.max(radius).max(f32::MIN_POSITIVE);
         }
         Some(())
     }

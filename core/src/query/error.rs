@@ -30,6 +30,8 @@ pub enum QueryError {
     /// - [`Hull`](crate::Hull): 2^40 times the model's size from its origin;
     /// - [`Bvh`](crate::Bvh): 2^38 grid units from the model's farthest corner; for corners of a
     ///   [`Solid`](crate::Solid) 2^30 grid units from the grid's origin, and for its radius;
+    /// - origins of rays: a quarter of these two, and of a box tree the sum of the ways along the
+    ///   axes;
     /// - [`Scene`](crate::Scene): two models that are farther from each other than f32 reaches;
     /// - [`Triboxes`](crate::Triboxes): [`Tribox::DOMAIN`](crate::Tribox::DOMAIN);
     /// - [`Sdf`](crate::Sdf): 2^60 of its units from the field, in whole units 2^28;

@@ -7,7 +7,8 @@ use super::work::Work;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Hit {
-    /// Parameter, 0 at the start of the segment or the motion, 1 at its end.
+    /// Parameter, 0 at the start of the segment or the motion, 1 at its end. Of a ray, 1 at the end of
+    /// its direction; at most [`f32::MAX`], and then `point` tells where.
     pub t: f32,
     /// The point.
     pub point: [f32; 3],
@@ -29,7 +30,8 @@ impl Hit {
 #[non_exhaustive]
 pub struct FirstHit {
     /// The parameter of the first common point. `lower` is infinite if it is proved that there is
-    /// none. `upper` is infinite if none is known, and 1 if the hit is not proved.
+    /// none. `upper` is infinite if none is known. If the hit is not proved, it is 1, and of a ray
+    /// the parameter of a point behind the model, or infinite.
     pub t: Interval,
     /// The first hit found. With [`Ended::Resolution`] the first place where the surface may be.
     /// With [`Ended::Steps`] or [`Ended::Scratch`] perhaps not the first.

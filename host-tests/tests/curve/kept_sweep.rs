@@ -53,6 +53,32 @@ fn a_search_in_small_steps_ends_like_one_that_is_not_interrupted() {
 }
 
 #[test]
+fn a_search_in_small_steps_with_short_memory_ends_also_after_a_motion() {
+    let mut rng = Rng::new(33);
+    for scene in scenes() {
+        let curve = scene.curve();
+        let most = 4 * curve.header().nodes() + 8;
+        for (from, to) in scene.points(12, 34).into_iter().zip(scene.points(12, 35)) {
+            let (entries, steps) = (4 + rng.below(13), 2 + rng.below(7) as u32);
+            let mut memory = scratch(entries);
+            let mut sweep = curve.sweep(from, &mut memory).expect("finite");
+            sweep.closest_point(Budget::EXACT.with_steps(steps)).expect("one");
+            sweep.move_to(to).expect("finite");
+            let mut opened = 0;
+            loop {
+                let near = sweep.closest_point(Budget::EXACT.with_steps(steps)).expect("one");
+                holds(&scene, to, &near);
+                opened += near.work.opened;
+                if near.ended != Ended::Steps {
+                    break;
+                }
+                assert!(opened < most, "{} {to:?}: {entries} entries, {steps}", scene.name);
+            }
+        }
+    }
+}
+
+#[test]
 fn a_moved_search_gives_the_bits_of_a_fresh_one_with_any_memory() {
     let mut rng = Rng::new(32);
     for scene in scenes() {

@@ -32,8 +32,9 @@ impl Bvh<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`QueryError::NoDirection`] of a direction of zeros. [`QueryError::OutOfDomain`] if the
-    /// origin is farther than 2^36 grid units away. Else those of `first_hit`.
+    /// [`QueryError::NoDirection`] of a direction of zeros. [`QueryError::OutOfDomain`] if the ways
+    /// along the axes to the model's farthest corner are more than 2^36 grid units together. Else
+    /// those of `first_hit`.
     #[inline(never)]
     pub fn first_hit_of_ray(
         &self,

@@ -111,6 +111,15 @@ impl<'a> DeformableHull<'a> {
                     return Err(bad);
                 }
             }
+            // A triangle stands for a part of the surface at every frame, or at none.
+            let mut triangle = 0;
+            while let (Some(at_rest), false) = (self.hull.radius(triangle), self.hull.encloses()) {
+                let at_key = key.radius(triangle).ok_or(bad)?;
+                if at_key.is_finite() != at_rest.is_finite() {
+                    return Err(bad);
+                }
+                triangle = triangle.wrapping_add(1);
+            }
         }
         Ok(())
     }
