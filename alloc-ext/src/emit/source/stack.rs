@@ -72,6 +72,7 @@ fn served(blob: &Blob<'_>) -> Vec<&'static str> {
         ("winding", of_tree(|tree| tree.serves_winding())),
         ("tight", blob.tight_hulls().is_ok()),
         ("hull", blob.hull().is_ok()),
+        ("deform", blob.deformable_hull().is_ok()),
         ("triboxes", blob.triboxes().is_ok()),
         ("curve", blob.curve().is_ok()),
         ("sdf", blob.sdf().is_ok()),
