@@ -9,10 +9,11 @@
 // take several times as much: core/docs/guide.md tells how to avoid it.
 //                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
 //   open curves                     1664 / 1536    1728 / 1664    1664 / 1536    1600 / 1408
-//   closest point of curves         1856 / 1728    1856 / 1664    1856 / 1728    1600 / 1472
-//   nearest segments of curves      1472 / 1408    1472 / 1408    1472 / 1472    1280 / 1216
-//   all within of curves            1472 / 1472    1472 / 1408    1472 / 1472    1280 / 1216
-//   signed distance of curves       2112 / 2048    2112 / 1984    2112 / 2048    1856 / 1792
+//   closest point of curves         1920 / 1856    1920 / 1792    1920 / 1856    1664 / 1600
+//   sweep of curves                 2304 / 2240    2432 / 2432    2304 / 2240    1984 / 1984
+//   nearest segments of curves      1472 / 1408    1536 / 1408    1472 / 1408    1280 / 1216
+//   all within of curves            1536 / 1408    1536 / 1408    1472 / 1408    1280 / 1280
+//   signed distance of curves       2176 / 2112    2176 / 2112    2176 / 2176    1920 / 1856
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
 
