@@ -286,7 +286,7 @@ impl fmt::Display for Failure {
             Failure::TooFar { place, limit } => {
                 write!(
                     f,
-                    "{place}: an end, or a ray's origin, is too far away for this blob: {limit}; clip a segment first"
+                    "{place}: an end is too far away for this blob: {limit}; clip the segment first"
                 )
             }
             Failure::Unwritten { file, cause } => {
