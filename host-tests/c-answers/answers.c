@@ -545,8 +545,11 @@ static void distance_field(void)
     static msw_sdf sdf;
     begin();
     fold_word((uint32_t)msw_open_sdf(&sdf, field, field_bytes));
-    float unit = msw_sdf_unit(&sdf);
-    fold(&unit, sizeof unit);
+    const union {
+        float number;
+        uint32_t bits;
+    } unit = {msw_sdf_unit(&sdf)};
+    fold_word(unit.bits);
     for (int round = 0; round < ROUNDS; round++) {
         float point[3];
         random_point(point);
