@@ -24,7 +24,7 @@ extern const unsigned char bend[];
 extern const uint32_t bend_bytes;
 
 /* Distances of two models take a board millions of instructions: fewer of them. */
-enum { ROUNDS = 24, PAIR_ROUNDS = 6, SPLITS = 60, FACES = 160 };
+enum { ROUNDS = 24, PAIR_ROUNDS = 6, SPLITS = 60, FACES = 140 };
 
 static msw_scratch_entry scratch[MSW_DISTANCE_ENTRIES];
 static msw_refined_entry refined[MSW_REFINED_ENTRIES(SPLITS)];
@@ -545,11 +545,9 @@ static void distance_field(void)
     static msw_sdf sdf;
     begin();
     fold_word((uint32_t)msw_open_sdf(&sdf, field, field_bytes));
-    const union {
-        float number;
-        uint32_t bits;
-    } unit = {msw_sdf_unit(&sdf)};
-    fold_word(unit.bits);
+    msw_interval unit = {0.0f, 0.0f};
+    fold_word((uint32_t)msw_sdf_unit(&sdf, &unit.lower));
+    fold(&unit, sizeof unit);
     for (int round = 0; round < ROUNDS; round++) {
         float point[3];
         random_point(point);

@@ -17,7 +17,7 @@ use meshsweep_core::{
 const ROUNDS: usize = 24;
 const PAIR_ROUNDS: usize = 6;
 const SPLITS: usize = 60;
-const FACES: usize = 160;
+const FACES: usize = 140;
 const SCRATCH: usize = Bvh::DISTANCE_ENTRIES;
 /// The kind of section that holds the box tree's header, and the place of the grid's origin in it.
 const BOX_TREE: u32 = 12;
@@ -508,8 +508,8 @@ fn triboxes(torus: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
 fn distance_field(field: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     let field = Sdf::open(field)?;
     let mut kind = Kind::begin();
-    kind.words(&[0]);
-    kind.floats(&[field.unit()]);
+    kind.words(&[0, 0]);
+    kind.floats(&[field.unit(), 0.0]);
     let told = |kind: &mut Kind, found: &FieldDistance| {
         kind.words(&[0]);
         kind.side(found.side);

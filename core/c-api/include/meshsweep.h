@@ -941,8 +941,8 @@ int32_t msw_tight_within(const msw_tight *hull, const float point[3], float dist
 /* Opens the distance field of a blob. As msw_open. Cost: the CRC of its bytes; once per start. */
 int32_t msw_open_sdf(msw_sdf *field, const void *bytes, size_t count);
 
-/* A unit of the field, in the mesh's unit, rounded to nearest. 0 if it is not opened. */
-float msw_sdf_unit(const msw_sdf *field);
+/* A unit of the field, in the mesh's unit, rounded to nearest. */
+int32_t msw_sdf_unit(const msw_sdf *field, float *unit);
 
 /* Bounds of the distance of `point` (in the mesh's unit), and its side where they tell it.
  *

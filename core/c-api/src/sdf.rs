@@ -26,8 +26,8 @@ pub extern "C" fn msw_open_sdf(field: Out<SdfStorage>, bytes: In<u8>, count: usi
 
 /// See `meshsweep.h`.
 #[unsafe(no_mangle)]
-pub extern "C" fn msw_sdf_unit(field: In<SdfStorage>) -> f32 {
-    field.view().map_or(0.0, Sdf::unit)
+pub extern "C" fn msw_sdf_unit(field: In<SdfStorage>, unit: Out<f32>) -> i32 {
+    unit.answer(|| Ok(field.view()?.unit()))
 }
 
 /// See `meshsweep.h`.
