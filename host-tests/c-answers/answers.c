@@ -24,7 +24,7 @@ extern const unsigned char bend[];
 extern const uint32_t bend_bytes;
 
 /* Distances of two models take a board millions of instructions: fewer of them. */
-enum { ROUNDS = 24, PAIR_ROUNDS = 6, SPLITS = 60, FACES = 140 };
+enum { ROUNDS = 24, PAIR_ROUNDS = 6, SPLITS = 60, FACES = 48 };
 
 static msw_scratch_entry scratch[MSW_DISTANCE_ENTRIES];
 static msw_refined_entry refined[MSW_REFINED_ENTRIES(SPLITS)];

@@ -17,7 +17,7 @@ use meshsweep_core::{
 const ROUNDS: usize = 24;
 const PAIR_ROUNDS: usize = 6;
 const SPLITS: usize = 60;
-const FACES: usize = 140;
+const FACES: usize = 48;
 const SCRATCH: usize = Bvh::DISTANCE_ENTRIES;
 /// The kind of section that holds the box tree's header, and the place of the grid's origin in it.
 const BOX_TREE: u32 = 12;
