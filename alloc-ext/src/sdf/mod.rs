@@ -21,7 +21,7 @@
 //! entry that holds what it needs. Nothing relies on samples.
 //!
 //! *Rounding.* All is computed in a frame whose unit is the field's. Lengths are below 2^20 there,
-//! so one [margin](region::MARGIN) in that unit is enough for every mesh.
+//! so one margin (`region::MARGIN`) in that unit is enough for every mesh.
 
 mod books;
 mod bound;

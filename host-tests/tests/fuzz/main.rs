@@ -108,6 +108,7 @@ tests! {
     tight: 5000;
     curves: 5000;
     deform: 5000;
+    sdf: 5000;
     mesh: 5000;
     build: 40;
 }
