@@ -72,10 +72,18 @@ pub fn bracket_model(folder: &Path) -> Result<Vec<u8>, String> {
 /// Never: the mesh has an area.
 #[must_use]
 pub fn groove_field() -> Vec<u8> {
+    field_of_groove(&SdfOptions::default().with_bytes(8 << 10))
+}
+
+/// The smaller field of the example `haptics`: no wider than its pad.
+fn groove_pad() -> Vec<u8> {
+    field_of_groove(&SdfOptions::default().with_bytes(2 << 10).with_margin(Some(3.0)))
+}
+
+fn field_of_groove(options: &SdfOptions) -> Vec<u8> {
     let (positions, triangles) = groove_block();
     let mesh = Mesh::new(positions, triangles);
-    let options = SdfOptions::default().with_bytes(8 << 10);
-    sdf::build(mesh.as_input(), &options, Watch::NONE).expect("an area").0.to_bytes()
+    sdf::build(mesh.as_input(), options, Watch::NONE).expect("an area").0.to_bytes()
 }
 
 /// The hierarchy for sweeps of a small torus with a hole in place of every fifth triangle.
@@ -100,7 +108,7 @@ pub fn torus_sieve() -> Vec<u8> {
 #[must_use]
 pub fn sources() -> Vec<(String, Vec<u8>)> {
     let (groove, clamps, [link, table]) = (groove_tree(), clamps_tree(), arm_trees());
-    let geofence = zone_curves();
+    let (pad, geofence) = (groove_pad(), zone_curves());
     let mut files = Vec::new();
     for (name, bytes, folders) in [
         (
@@ -108,6 +116,7 @@ pub fn sources() -> Vec<(String, Vec<u8>)> {
             &groove,
             &["fixtures", "examples/probe/src", "examples/haptics/src", "examples/guard/src"][..],
         ),
+        ("groove_pad", &pad, &["examples/haptics/src"]),
         ("clamps", &clamps, &["examples/keep_out/src"]),
         ("link", &link, &["examples/guard/src"]),
         ("table", &table, &["examples/guard/src"]),
@@ -115,7 +124,8 @@ pub fn sources() -> Vec<(String, Vec<u8>)> {
     ] {
         let blob = Blob::open(bytes).expect("the builder's blob opens");
         let kind = if blob.curve().is_ok() { "csv" } else { "obj" };
-        let (mesh, file) = (format!("{name}.{kind}"), format!("{name}.msw"));
+        let mesh = if blob.sdf().is_ok() { "groove" } else { name };
+        let (mesh, file) = (format!("{mesh}.{kind}"), format!("{name}.msw"));
         let names = SourceNames { mesh: &mesh, blob: &file };
         for folder in folders {
             files.push((format!("{folder}/{name}.rs"), rust_module(&blob, names).into_bytes()));

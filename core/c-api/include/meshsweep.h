@@ -959,7 +959,8 @@ int32_t msw_sdf_distance_and_gradient(const msw_sdf *field, const float point[3]
                                       msw_sdf_gradient_answer *answer);
 
 /* Whether the surface is at most `distance` from `point`; of a field of kind solid whether the solid
- * is, so that a point inside is never MSW_NO. Of the other kinds a point deep inside is. Undecided if the interval has lengths on both sides of `distance`: treat it as MSW_YES.
+ * is, so that a point inside is never MSW_NO. Of the other kinds a point deep inside is. Undecided
+ * if the interval has lengths on both sides of `distance`: treat it as MSW_YES.
  * MSW_ERROR_TOLERANCE: the distance is negative, NaN or infinite. */
 int32_t msw_sdf_within(const msw_sdf *field, const float point[3], float distance,
                        msw_verdict_answer *answer);

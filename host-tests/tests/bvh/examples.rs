@@ -103,14 +103,16 @@ fn the_head_is_refused_exactly_the_moves_that_do_not_keep_the_distance() {
 }
 
 #[test]
-fn the_finger_is_pushed_by_its_depth_and_all_answers_are_those_of_fresh_queries() {
+fn the_finger_is_pushed_by_its_depth_and_all_answers_are_those_of_fresh_queries_and_of_the_pad() {
     let lines = promised("haptics");
     let (positions, triangles) = groove_block();
     let deepest = distance_to_mesh([10.0, 20.0, 29.5], &positions, &triangles);
     let force = f64::from(numbers(&lines, "largest force: ")[0]);
     assert!(force <= 500.0 * deepest.upper && force + 1.5 > 500.0 * deepest.lower);
-    let same = numbers(&lines, "answers with the bits of a fresh query: ");
-    assert_eq!(same, numbers(&lines, "questions: "));
+    let questions = numbers(&lines, "questions: ");
+    assert_eq!(numbers(&lines, "answers with the bits of a fresh query: "), questions);
+    let agree = "intervals of the field that share a distance with the tree's: ";
+    assert_eq!(numbers(&lines, agree), questions);
 }
 
 /// Places of the arm of `guard` at a tick, by angles in f64: seven links, a table, a machine.

@@ -26,7 +26,7 @@ pub struct Example {
 pub const EXAMPLES: [Example; 5] = [
     Example { name: "probe", models: &["groove"] },
     Example { name: "keep_out", models: &["clamps"] },
-    Example { name: "haptics", models: &["groove"] },
+    Example { name: "haptics", models: &["groove", "groove_pad"] },
     Example { name: "fence", models: &["zones"] },
     Example { name: "guard", models: &["link", "table", "groove"] },
 ];
