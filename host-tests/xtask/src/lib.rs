@@ -50,6 +50,7 @@ pub mod kind;
 pub mod process;
 pub mod processors;
 pub mod proof;
+pub mod python;
 pub mod qemu;
 pub mod question;
 #[path = "../../suite/src/questions.rs"]

@@ -16,7 +16,7 @@ use meshsweep_xtask::tools::{Tools, setup};
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::{
     c_checks, checks, count, count_suite, dist, examples, firmware, fit, fuzz, host, processors,
-    question, report, rival, say, tables,
+    python, question, report, rival, say, tables,
 };
 
 const USAGE: &str = "\
@@ -26,6 +26,7 @@ cargo xtask test QUESTION           what a change of a question can break, such 
 cargo xtask firmware                only the firmware: bits, panics, sizes, instructions
 cargo xtask examples                only core/examples, on a Cortex-M4F, and defmt
 cargo xtask c                       only the C interface: its programs here and in QEMU
+cargo xtask python                  the Python package: its wheel in target/dist, types, tests
 cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist;
                                     manual: shell completions and man pages of the program
 cargo xtask fuzz [MINUTES] [TARGET...]
@@ -113,6 +114,7 @@ fn main() -> ExitCode {
                 c_checks::run(&mut steps, &tools);
             }
         }
+        ["python"] => python::run(&mut steps),
         ["dist", targets @ ..] => dist::run(&mut steps, targets),
         ["fuzz", words @ ..] => {
             let minutes: Option<NonZeroU32> = words.first().and_then(|word| word.parse().ok());

@@ -1,0 +1,524 @@
+"""Geometric questions about triangle meshes, answered by intervals that contain the truth.
+
+>>> import meshsweep
+>>> part = meshsweep.build("part.stl")
+>>> near = part.closest_point([[10, 4.5, 7], [-1, 2, 3]])
+>>> near.lower, near.upper, near.point, near.triangle
+>>> part.save("part.msw")
+
+Lengths are in the mesh's unit. Questions take rows of an array of shape (n, 3) and give records of
+shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. They run on all cores and
+without the interpreter's lock; Ctrl-C ends them. The bits of the answers are those that firmware
+computes.
+
+**Rounding.** Questions are asked in single precision. Points in double precision are rounded first,
+and intervals of distances, sides and verdicts about one distance are widened by that, so that they
+hold for the points as given. Segments, rays and poses are rounded, and the answer is about the
+rounded one: give float32 to see none.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _meshsweep, _records
+from ._meshsweep import BlobError, BuildError, MeshsweepError, NotServedError, QueryError
+from ._records import Ended, Facing, Side, Verdict, records
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "BlobError",
+    "BuildError",
+    "Ended",
+    "Facing",
+    "MeshsweepError",
+    "Model",
+    "NotServedError",
+    "Note",
+    "QueryError",
+    "Side",
+    "TightHull",
+    "Verdict",
+    "build",
+    "load",
+]
+
+Records = np.recarray[Any, Any]
+Progress = bool | Callable[[str, float], Any] | None
+
+
+class Note(NamedTuple):
+    """A sentence of the report of a build."""
+
+    topic: str
+    text: str
+
+
+class TightHull(NamedTuple):
+    """A hull that encloses the mesh, by exact predicates on these coordinates."""
+
+    vertices: NDArray[np.float32]
+    """Shape (v, 3)."""
+    triangles: NDArray[np.uint32]
+    """Shape (t, 3)."""
+    slack: float
+    """No point of the hull is farther from the mesh."""
+
+
+def build(
+    mesh: str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Any,
+    for_: str | Iterable[str] = (),
+    *,
+    progress: Progress = None,
+    unit: str | None = None,
+    vertex_bits: int | None = None,
+    base_faces: int | None = None,
+    triboxes: int | None = None,
+    tribox_error: float | None = None,
+    orient: str | None = None,
+    tight_faces: Sequence[int] | None = None,
+    slack: float | None = None,
+    void_percent: float | None = None,
+    margin: float | None = None,
+    effort: float | None = None,
+    sdf_bytes: int | None = None,
+    sdf_kind: str | None = None,
+    sdf_margin: float | None = None,
+    frames: Iterable[str | os.PathLike[str]] = (),
+    closed: bool = False,
+) -> Model:
+    """Builds the model of a mesh: the bytes of `meshsweep build`, in memory.
+
+    `mesh` is a file (STL, PLY, OBJ, OFF, glTF, 3MF, COLLADA; or CSV of a curve), a pair of vertices
+    (v, 3) and triangles (t, 3), or an object with `vertices` and `faces`, as `trimesh.Trimesh`.
+    `for_` names the questions, as "closest,segment", which is the default. The other options are
+    those of `meshsweep build`, which its help explains; `None` is the default.
+
+    `progress` is called with the name of the stage and the part of the work that is done; `True`
+    shows a bar, if tqdm is installed. An exception of it, or Ctrl-C, ends the build.
+
+    Raises `BuildError`, which names the defect and its place, if the mesh or an option is refused.
+    What was repaired is in `Model.report`.
+    """
+    words = for_.split(",") if isinstance(for_, str) else list(for_)
+    options = {
+        "for_": [word.strip() for word in words if word.strip()],
+        "unit": unit,
+        "vertex_bits": vertex_bits,
+        "base_faces": base_faces,
+        "triboxes": triboxes,
+        "tribox_error": tribox_error,
+        "orient": orient,
+        "tight_faces": None if tight_faces is None else list(tight_faces),
+        "slack": slack,
+        "void_percent": void_percent,
+        "margin": margin,
+        "effort": effort,
+        "sdf_bytes": sdf_bytes,
+        "sdf_kind": sdf_kind,
+        "sdf_margin": sdf_margin,
+        "frames": [os.fspath(frame) for frame in frames],
+        "closed": closed,
+    }
+    with _Bar(progress) as tell:
+        if isinstance(mesh, (str, os.PathLike)):
+            return Model(_meshsweep.build_file(os.fspath(mesh), options, tell))
+        vertices, faces = _arrays_of(mesh)
+        return Model(_meshsweep.build_mesh(vertices, faces, options, tell))
+
+
+def load(file: str | os.PathLike[str]) -> Model:
+    """The model of a blob in a file. Every byte is checked: raises `BlobError`."""
+    with open(file, "rb") as opened:
+        return Model(opened.read())
+
+
+class Model:
+    """An opened blob, which answers questions. Safe to share between threads, and to pickle."""
+
+    def __init__(self, blob: bytes | _meshsweep.Model) -> None:
+        """Opens the bytes of a blob. Every byte is checked: raises `BlobError`."""
+        self._model = blob if isinstance(blob, _meshsweep.Model) else _meshsweep.Model(bytes(blob))
+        self._facts = self._model.facts()
+
+    def __bytes__(self) -> bytes:
+        return self._model.bytes()
+
+    def __reduce__(self) -> tuple[type[Model], tuple[bytes]]:
+        return Model, (bytes(self),)
+
+    def __repr__(self) -> str:
+        return f"<meshsweep.Model for {','.join(self.serves)}: {len(bytes(self))} bytes>"
+
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Writes the blob: what `meshsweep build` writes, for firmware as well."""
+        with open(file, "wb") as opened:
+            opened.write(bytes(self))
+
+    @property
+    def report(self) -> list[Note]:
+        """What the build repaired, moved and left out; empty of a model that was loaded."""
+        return [Note(*note) for note in self._model.report()]
+
+    @property
+    def serves(self) -> list[str]:
+        """The questions that the blob serves, in the words of `for_`."""
+        return list(self._facts["serves"])
+
+    @property
+    def bounds(self) -> NDArray[np.float32] | None:
+        """Shape (2, 3): a box that holds the input mesh."""
+        bounds = self._facts["bounds"]
+        return None if bounds is None else np.array(bounds, np.float32)
+
+    @property
+    def is_closed(self) -> bool | None:
+        """Whether the mesh bounds a volume; `None` without a box tree."""
+        return self._facts["is_closed"]
+
+    @property
+    def has_sides(self) -> bool | None:
+        """Whether `signed_distance` tells sides; `None` without a box tree."""
+        return self._facts["has_sides"]
+
+    @property
+    def surface_error(self) -> float | None:
+        """No stored point of the surface is farther from the input mesh. Intervals include it."""
+        return self._facts["surface_error"]
+
+    def closest_point(
+        self, points: ArrayLike, *, rel: float = 0.0, abs: float = 0.0, steps: int | None = None
+    ) -> Records:
+        """The distance of each point from the surface, and a point of the surface.
+
+        Fields: `lower` and `upper`, which contain the distance to the input mesh; `point`, of the
+        surface and at most `upper` away from the rounded query; `triangle`, its number in the
+        input file, or -1; `ended`; `work`. Curves have `polyline`, `segment` and `safe_motion` in
+        place of `triangle`.
+
+        A search ends once the interval is narrower than `rel` of the distance or than `abs`, or
+        after so many `steps`: the interval is wider then, and holds.
+        """
+        dtype = _records.CLOSEST_ON_CURVE if self._facts["is_curve"] else _records.CLOSEST
+        rows, moved = _points(points)
+        found = self._model.closest_point(rows, (rel, abs, steps), dtype.itemsize)
+        return _widened(records(found, dtype), moved)
+
+    def signed_distance(self, points: ArrayLike, *, steps: int | None = None) -> Records:
+        """The distance of each point, negative inside.
+
+        trimesh and libigl differ: trimesh's `signed_distance` is positive inside.
+
+        Fields: `lower`, `upper`, `side` (a `Side`), and those of `closest_point`. An undecided side
+        has an interval with both signs. The side is by the nearest triangle of a closed mesh; where
+        that is undecided, and of open meshes, by the winding number, if `for_` names "winding".
+        """
+        rows, moved = _points(points)
+        found = self._model.signed_distance(rows, steps, _records.SIGNED.itemsize)
+        return _widened(records(found, _records.SIGNED), moved)
+
+    def within(self, points: ArrayLike, distance: float, *, steps: int | None = None) -> Records:
+        """Whether the surface is at most `distance` from each point.
+
+        Fields: `verdict` (a `Verdict`: 0 only where it is proved that nothing is so near);
+        `triangle`, the witness of a `YES`, or -1; `ended`; `work`. Deep inside a part nothing is
+        near.
+        """
+        rows, moved = _points(points)
+        size = _records.WITHIN.itemsize
+        limits = np.full((len(rows), 1), _checked(distance), np.float32)
+
+        def ask(limits: NDArray[np.float32]) -> Records:
+            found = self._model.within(np.hstack([rows, limits]), steps, size)
+            return records(found, _records.WITHIN)
+
+        if moved is None and float(np.float32(distance)) == distance:
+            return ask(limits)
+        # Farther than the distance and the rounding is farther; nearer than the distance less the
+        # rounding is nearer; the rest is undecided.
+        slack = np.zeros((len(rows), 1)) if moved is None else moved[:, None].astype(np.float64)
+        found = ask(_up(distance + slack))
+        near = ask(_down(np.maximum(distance - slack, 0.0)))
+        is_open = found.verdict == Verdict.YES
+        is_near = (near.verdict == Verdict.YES) & (distance >= slack[:, 0])
+        found.verdict[is_open & ~is_near] = Verdict.UNDECIDED
+        found.ended[is_open & ~is_near] = Ended.RESOLUTION
+        return found
+
+    def nearest(self, points: ArrayLike, count: int) -> Records:
+        """The `count` triangles nearest to each point, nearest first: shape (n, count).
+
+        Fields: `lower`, `upper`, `point`, `triangle`. A mesh with fewer triangles has fewer.
+        """
+        rows, moved = _points(points)
+        if count < 1:
+            raise QueryError("count: at least 1 is wanted")
+        found = records(
+            self._model.nearest(rows, count, _records.NEAREST.itemsize), _records.NEAREST
+        )
+        each = found.reshape(len(rows), -1) if len(rows) else found.reshape(0, count)
+        return _widened(cast(Records, each), moved)
+
+    def all_within(self, points: ArrayLike, distance: float) -> list[Records]:
+        """All triangles that may be at most `distance` from each point: a list of n records.
+
+        Fields: `lower`, `upper`, `point`, `triangle`, and `is_certain`: false of triangles that are
+        perhaps a little farther. No other triangle is so near. Points in double precision that
+        single precision does not hold are refused.
+        """
+        rows, moved = _points(points)
+        if moved is not None:
+            raise QueryError("all_within: the points are not in single precision; round them first")
+        size = _records.ALL_WITHIN.itemsize
+        begins, found = self._model.all_within(rows, _checked(distance), size)
+        return _parts(begins, records(found, _records.ALL_WITHIN))
+
+    def winding_number(self, points: ArrayLike) -> Records:
+        """How often the mesh encloses each point. Needs "winding" among the words of `for_`.
+
+        Fields: `lower` and `upper`, which contain the winding number of the input's triangles;
+        `side`; `ended`; `work`. The points are rounded to single precision.
+        """
+        rows, _ = _points(points)
+        found = self._model.winding_number(rows, _records.WINDING.itemsize)
+        return records(found, _records.WINDING)
+
+    def first_hit(
+        self,
+        starts: ArrayLike,
+        ends: ArrayLike,
+        *,
+        facing: Facing = Facing.BOTH,
+        steps: int | None = None,
+    ) -> Records:
+        """The first point of each segment that lies on the surface.
+
+        Fields: `verdict`: `NO` where it is proved that the segment is clear, `UNDECIDED` where it
+        touches or the steps ended; `t_lower`, `t_upper`, which contain the parameter of the first
+        common point, 0 at the start and 1 at the end, infinite if there is none; `point`, NaN
+        without a hit; `triangle`, or -1; `ended`; `work`.
+        """
+        return self._first_hit(starts, ends, False, facing, steps)
+
+    def first_hit_of_ray(
+        self,
+        origins: ArrayLike,
+        directions: ArrayLike,
+        *,
+        facing: Facing = Facing.BOTH,
+        steps: int | None = None,
+    ) -> Records:
+        """The same of rays without an end. The parameter counts lengths of the direction."""
+        return self._first_hit(origins, directions, True, facing, steps)
+
+    def _first_hit(
+        self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing, steps: int | None
+    ) -> Records:
+        size, rows = _records.FIRST_HIT.itemsize, _pairs(a, b)
+        found = self._model.first_hit(rows, is_ray, int(facing), steps, size)
+        return records(found, _records.FIRST_HIT)
+
+    def all_hits(
+        self, starts: ArrayLike, ends: ArrayLike, *, facing: Facing = Facing.BOTH
+    ) -> list[Records]:
+        """All triangles that each segment meets, first ones first: a list of n records.
+
+        Fields: `verdict`, `YES` or `UNDECIDED`; `t`; `point`; `triangle`.
+        """
+        return self._all_hits(starts, ends, False, facing)
+
+    def all_hits_of_ray(
+        self, origins: ArrayLike, directions: ArrayLike, *, facing: Facing = Facing.BOTH
+    ) -> list[Records]:
+        """The same of rays without an end. The parameter counts lengths of the direction."""
+        return self._all_hits(origins, directions, True, facing)
+
+    def _all_hits(self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing) -> list[Records]:
+        size, rows = _records.ALL_HITS.itemsize, _pairs(a, b)
+        begins, found = self._model.all_hits(rows, is_ray, int(facing), size)
+        return _parts(begins, records(found, _records.ALL_HITS))
+
+    def distance_to(
+        self, other: Model, poses: ArrayLike | None = None, *, rel: float = 0.0, abs: float = 0.0
+    ) -> Records:
+        """The distance of this surface from that of another model, at poses of the other.
+
+        `poses`: shape (n, 4, 4) or (n, 3, 4), rigid, from the other's frame to this one's; one as
+        built if there are none. Both need "segment" among the words of `for_`.
+
+        Fields: `lower` and `upper`; `points`, one of each surface in this frame; `triangles`;
+        `ended`; `work`.
+        """
+        size = _records.PAIR.itemsize
+        found = self._model.distance_to(other._model, _poses(poses), rel, abs, size)
+        return records(found, _records.PAIR)
+
+    def within_of(self, other: Model, distance: float, poses: ArrayLike | None = None) -> Records:
+        """Whether both surfaces are at most `distance` apart, at poses of the other.
+
+        Fields: `verdict`; `triangles`, the witnesses of a `YES`, or -1; `ended`; `work`.
+        """
+        size = _records.MEETS.itemsize
+        found = self._model.meets(other._model, _poses(poses), _checked(distance), size)
+        return records(found, _records.MEETS)
+
+    def overlap(self, other: Model, poses: ArrayLike | None = None) -> Records:
+        """Whether both surfaces meet, at poses of the other. Fields: those of `within_of`."""
+        found = self._model.meets(other._model, _poses(poses), None, _records.MEETS.itemsize)
+        return records(found, _records.MEETS)
+
+    def field_distance(self, points: ArrayLike) -> Records:
+        """Bounds of the distance by the distance field, as a Cortex-M has them in 200 instructions.
+
+        Needs "sdf" among the words of `for_`. Fields: `lower`, `upper`; `side`; `gradient`, the
+        direction in which the distance rises, without a guarantee.
+        """
+        rows, moved = _points(points)
+        found = self._model.field(rows, _records.FIELD.itemsize)
+        return _widened(records(found, _records.FIELD), moved)
+
+    def tight_hulls(self) -> list[TightHull]:
+        """Hulls of few faces that enclose the mesh, coarse to fine. Needs "tight"."""
+        return [TightHull(*arrays, slack) for arrays, slack in self._model.tight_hulls()]
+
+    def hull_levels(self) -> list[tuple[NDArray[np.float32], NDArray[np.uint32]]]:
+        """Nested hulls that enclose the mesh, coarse to fine: vertices, triangles. Needs "hull"."""
+        return [self._model.hull_level(level) for level in range(self._model.hull_levels())]
+
+
+def _arrays_of(mesh: Any) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """Vertices and triangles of whatever `build` takes."""
+    pair = (mesh.vertices, mesh.faces) if hasattr(mesh, "faces") else mesh
+    try:
+        vertices, faces = pair
+    except (TypeError, ValueError):
+        text = "a mesh is a file, a pair of vertices and triangles, or has `vertices` and `faces`"
+        raise BuildError(text) from None
+    vertices = np.ascontiguousarray(vertices, np.float64)
+    numbers = np.asarray(faces)
+    if vertices.ndim != 2 or vertices.shape[1] != 3:
+        raise BuildError(f"vertices: shape (v, 3) is wanted, not {vertices.shape}")
+    if numbers.ndim != 2 or numbers.shape[1] != 3:
+        raise BuildError(f"triangles: shape (t, 3) is wanted, not {numbers.shape}")
+    if not np.issubdtype(numbers.dtype, np.integer):
+        raise BuildError(f"triangles: integers are wanted, not {numbers.dtype}")
+    if numbers.size and (numbers.min() < 0 or numbers.max() > 0xFFFFFFFF):
+        raise BuildError("triangles: a vertex number is negative or beyond 32 bits")
+    return vertices, np.ascontiguousarray(numbers, np.uint32)
+
+
+def _rows(given: ArrayLike, what: str) -> NDArray[np.floating[Any]]:
+    rows = np.asarray(given)
+    if rows.ndim == 1 and rows.shape[0] == 3:
+        rows = rows[None, :]
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise QueryError(f"{what}: shape (n, 3) is wanted, not {rows.shape}")
+    return rows
+
+
+def _points(
+    given: ArrayLike,
+) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
+    """The points in single precision, and bounds of how far each was moved, if any was."""
+    rows = _rows(given, "points")
+    if rows.dtype == np.float32:
+        return np.ascontiguousarray(rows), None
+    wide = rows.astype(np.float64)
+    with np.errstate(over="ignore"):
+        single = np.ascontiguousarray(wide, np.float32)
+    # The differences are exact. A number that is too large is refused as infinite.
+    with np.errstate(invalid="ignore"):
+        off = wide - single
+    if not np.any(off):
+        return single, None
+    return single, np.nextafter(np.linalg.norm(off, axis=1).astype(np.float32), np.float32(np.inf))
+
+
+def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
+    """Intervals of distances that hold for points before rounding."""
+    if moved is None:
+        return found
+    slack = moved.reshape(moved.shape + (1,) * (found.ndim - 1))
+    lower = np.nextafter(found.lower - slack, np.float32(-np.inf))
+    upper = np.nextafter(found.upper + slack, np.float32(np.inf))
+    if found.dtype.names is not None and "side" in found.dtype.names:
+        certain = np.where(lower > 0, Side.OUTSIDE, np.where(upper < 0, Side.INSIDE, 0))
+        # A field that does not tell sides keeps its distances at 0 and above.
+        kept = np.where(found.side == certain, certain, 0)
+        lower = np.where((found.side == 0) & (found.lower >= 0), np.maximum(lower, 0), lower)
+        found.side[:] = kept
+    else:
+        lower = np.maximum(lower, np.float32(0))
+    found.lower[:] = lower
+    found.upper[:] = upper
+    return found
+
+
+def _up(values: NDArray[np.float64]) -> NDArray[np.float32]:
+    return np.nextafter(values.astype(np.float32), np.float32(np.inf))
+
+
+def _down(values: NDArray[np.float64]) -> NDArray[np.float32]:
+    return np.maximum(np.nextafter(values.astype(np.float32), np.float32(-np.inf)), np.float32(0))
+
+
+def _checked(distance: float) -> float:
+    if not (np.isfinite(distance) and distance >= 0):
+        raise QueryError(f"distance: {distance} is negative or not finite")
+    return float(distance)
+
+
+def _pairs(a: ArrayLike, b: ArrayLike) -> NDArray[np.float32]:
+    """Rows of six: both ends, or origin and direction."""
+    first, second = _rows(a, "starts"), _rows(b, "ends")
+    first, second = np.broadcast_arrays(first, second)
+    with np.errstate(over="ignore"):
+        return np.ascontiguousarray(np.hstack([first, second]), np.float32)
+
+
+def _poses(poses: ArrayLike | None) -> NDArray[np.float32]:
+    """Rows of twelve: the upper three rows of each matrix."""
+    matrices = np.eye(4) if poses is None else np.asarray(poses)
+    if matrices.ndim == 2:
+        matrices = matrices[None]
+    if matrices.ndim != 3 or matrices.shape[1:] not in [(4, 4), (3, 4)]:
+        raise QueryError(f"poses: shape (n, 4, 4) or (n, 3, 4) is wanted, not {matrices.shape}")
+    upper = matrices[:, :3, :].reshape(len(matrices), 12)
+    return np.ascontiguousarray(upper, np.float32)
+
+
+def _parts(begins: NDArray[np.uint64], found: Records) -> list[Records]:
+    return [cast(Records, found[begin:end]) for begin, end in itertools.pairwise(begins)]
+
+
+class _Bar:
+    """Progress as a bar, or as the caller wants it."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress = progress
+        self._bar: Any = None
+
+    def __enter__(self) -> Callable[[str, float], Any] | None:
+        if self._progress is not True:
+            return self._progress or None
+        try:
+            from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
+        except ImportError:
+            return None
+        self._bar = tqdm(total=1.0, bar_format="{l_bar}{bar}| {elapsed}")
+        return self._show
+
+    def _show(self, stage: str, part: float) -> None:
+        self._bar.set_description_str(stage, refresh=False)
+        self._bar.update(part - self._bar.n)
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.close()

@@ -1,0 +1,78 @@
+"""Answers as NumPy records. `src/*.rs` writes them in this order."""
+
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+
+_INTERVAL = [("lower", "f4"), ("upper", "f4")]
+_END = [("ended", "u1"), ("work", "u4")]
+_POINT = ("point", "f4", 3)
+
+CLOSEST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), *_END])
+CLOSEST_ON_CURVE = np.dtype(
+    [*_INTERVAL, _POINT, ("polyline", "i8"), ("segment", "i8"), ("safe_motion", "f4"), *_END]
+)
+SIGNED = np.dtype([*_INTERVAL, ("side", "i1"), _POINT, ("triangle", "i8"), *_END])
+WITHIN = np.dtype([("verdict", "u1"), ("triangle", "i8"), *_END])
+NEAREST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8")])
+ALL_WITHIN = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), ("is_certain", "?")])
+WINDING = np.dtype([*_INTERVAL, ("side", "i1"), *_END])
+FIRST_HIT = np.dtype(
+    [("verdict", "u1"), ("t_lower", "f4"), ("t_upper", "f4"), _POINT, ("triangle", "i8"), *_END]
+)
+ALL_HITS = np.dtype([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")])
+FIELD = np.dtype([*_INTERVAL, ("side", "i1"), ("gradient", "f4", 3)])
+PAIR = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END])
+MEETS = np.dtype([("verdict", "u1"), ("triangles", "i8", 2), *_END])
+
+
+class Verdict(IntEnum):
+    """The answer to a question whose wrong `NO` would be a collision.
+
+    `NO` alone is falsy: `if not verdict` is true only where it is proved that nothing is there.
+    """
+
+    NO = 0
+    """Proved: nothing is there. Clear."""
+    YES = 1
+    """Proved: something is there."""
+    UNDECIDED = 2
+    """Neither is proved. To avoid collisions, treat it as `YES`."""
+
+
+class Side(IntEnum):
+    """The side of a point."""
+
+    INSIDE = -1
+    UNDECIDED = 0
+    OUTSIDE = 1
+
+
+class Ended(IntEnum):
+    """Why a search ended. Intervals hold with every reason."""
+
+    EXACT = 0
+    """The search is complete."""
+    TOLERANCE = 1
+    """The tolerance was met."""
+    STEPS = 2
+    """The steps were used up."""
+    SCRATCH = 3
+    """The scratch memory was too short. It does not happen here."""
+    RESOLUTION = 4
+    """The stored precision leaves the answer undecided."""
+
+
+class Facing(IntEnum):
+    """Which triangles a segment may hit."""
+
+    BOTH = 0
+    FRONT = 1
+    """Those whose corners run counter-clockwise as seen from the start."""
+    BACK = 2
+
+
+def records(raw: np.ndarray[Any, Any], dtype: np.dtype[Any]) -> np.recarray[Any, Any]:
+    """The records of packed bytes, whose fields are attributes too."""
+    return raw.view(dtype).view(np.recarray)

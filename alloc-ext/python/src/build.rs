@@ -1,0 +1,175 @@
+//! From a file or arrays to a model. Options have the names and defaults of [`Builder`].
+
+use crate::error::{BuildError, of_build};
+use crate::model::Model;
+use meshsweep::Builder;
+use meshsweep::builder::{Built, For, SdfKind, Stage};
+use meshsweep::mesh::{RawMesh, Unit};
+use meshsweep::surface::VertexBits;
+use meshsweep::tribox::Measure;
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+/// Options of a build; `None` is the default.
+#[derive(Debug, Default, FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Options {
+    #[pyo3(item("for_"))]
+    serve: Vec<String>,
+    unit: Option<String>,
+    vertex_bits: Option<u32>,
+    base_faces: Option<u32>,
+    triboxes: Option<u32>,
+    tribox_error: Option<f64>,
+    orient: Option<String>,
+    tight_faces: Option<Vec<u32>>,
+    slack: Option<f64>,
+    void_percent: Option<f64>,
+    margin: Option<f64>,
+    effort: Option<f64>,
+    sdf_bytes: Option<u32>,
+    sdf_kind: Option<String>,
+    sdf_margin: Option<f64>,
+    frames: Vec<PathBuf>,
+    closed: bool,
+}
+
+/// The one of `all` with this name.
+fn named<T: Copy>(all: &[T], name: fn(T) -> &'static str, option: &str, word: &str) -> PyResult<T> {
+    all.iter().copied().find(|&one| name(one) == word).ok_or_else(|| {
+        let names: Vec<&str> = all.iter().map(|&one| name(one)).collect();
+        BuildError::new_err(format!("{option}: no {word:?}; there are {}", names.join(", ")))
+    })
+}
+
+impl Options {
+    fn builder<'a>(&self) -> PyResult<Builder<'a>> {
+        let bits = match self.vertex_bits {
+            None => VertexBits::Auto,
+            Some(16) => VertexBits::Grid16,
+            Some(24) => VertexBits::Grid24,
+            Some(32) => VertexBits::F32,
+            Some(other) => {
+                let text = format!("vertex_bits: {other} is none of 16, 24 and 32");
+                return Err(BuildError::new_err(text));
+            }
+        };
+        let mut builder = Builder::new().vertex_bits(bits).closed(self.closed);
+        for word in &self.serve {
+            builder = builder.serve(named(&For::ALL, For::name, "for_", word)?);
+        }
+        if let Some(word) = &self.unit {
+            builder = builder.unit(named(&Unit::ALL, Unit::symbol, "unit", word)?);
+        }
+        if let Some(word) = &self.orient {
+            builder = builder.orient(named(
+                &[Measure::Volume, Measure::Area],
+                Measure::name,
+                "orient",
+                word,
+            )?);
+        }
+        if let Some(word) = &self.sdf_kind {
+            builder = builder.sdf_kind(named(&SdfKind::ALL, SdfKind::name, "sdf_kind", word)?);
+        }
+        if let Some(faces) = &self.tight_faces {
+            builder = builder.tight_faces(faces);
+        }
+        for frame in &self.frames {
+            builder = builder.frame_file(frame);
+        }
+        Ok(builder
+            .base_faces(self.base_faces)
+            .triboxes(self.triboxes)
+            .tribox_error(self.tribox_error)
+            .slack(self.slack)
+            .void_percent(self.void_percent)
+            .margin(self.margin)
+            .effort(self.effort)
+            .sdf_bytes(self.sdf_bytes)
+            .sdf_margin(self.sdf_margin))
+    }
+
+    /// Builds without the interpreter's lock. `progress` gets the name of what is being done and
+    /// the part of the work that is done. An exception of it, or Ctrl-C, ends the build.
+    fn build(
+        &self,
+        py: Python<'_>,
+        progress: Option<Py<PyAny>>,
+        run: impl FnOnce(Builder<'_>) -> Result<Built, meshsweep::BuildError> + Send,
+    ) -> PyResult<Model> {
+        let mut raised = None;
+        let built = py.detach(|| {
+            let told = |stage, part| {
+                let told = Python::attach(|py| {
+                    py.check_signals()?;
+                    let tell = |to: &Py<PyAny>| to.call1(py, (stage_name(stage), part)).map(drop);
+                    progress.as_ref().map_or(Ok(()), tell)
+                });
+                match told {
+                    Ok(()) => ControlFlow::Continue(()),
+                    Err(error) => {
+                        raised = Some(error);
+                        ControlFlow::Break(())
+                    }
+                }
+            };
+            self.builder().map(|builder| run(builder.on_progress(told)))
+        })?;
+        match (raised, built) {
+            (Some(error), Err(_)) => Err(error),
+            (_, built) => Model::built(built.map_err(|error| of_build(&error))?),
+        }
+    }
+}
+
+/// What a build is doing, in words.
+fn stage_name(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Loading => "reading and repairing",
+        Stage::Collapsing { .. } => "collapsing edges",
+        Stage::Certifying => "certifying distances",
+        Stage::BoxTree => "box tree",
+        Stage::Triboxes => "triboxes",
+        Stage::Sdf => "distance field",
+        Stage::Shrinking { .. } => "shrinking hulls",
+        Stage::Polishing { .. } => "polishing hulls",
+        Stage::Curve => "curves",
+        Stage::Done => "done",
+        _ => "building",
+    }
+}
+
+/// The words of `for_`.
+#[pyfunction]
+pub fn words_of_for() -> Vec<&'static str> {
+    For::ALL.map(For::name).to_vec()
+}
+
+/// Builds the model of a mesh file, or of a CSV file of curves.
+#[pyfunction]
+pub fn build_file(
+    py: Python<'_>,
+    file: PathBuf,
+    options: Options,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Model> {
+    options.build(py, progress, |builder| builder.build_file(file))
+}
+
+/// Builds the model of vertices and triangles.
+#[pyfunction]
+pub fn build_mesh(
+    py: Python<'_>,
+    vertices: PyReadonlyArray2<'_, f64>,
+    triangles: PyReadonlyArray2<'_, u32>,
+    options: Options,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Model> {
+    let vertices = vertices.as_slice()?.as_chunks::<3>().0.to_vec();
+    let triangles = triangles.as_slice()?.as_chunks::<3>().0.to_vec();
+    let mesh = RawMesh::from_f64(vertices, triangles);
+    options.build(py, progress, |builder| builder.build(mesh))
+}

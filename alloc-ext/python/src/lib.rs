@@ -1,0 +1,21 @@
+//! The Rust half of the Python package `meshsweep`. Rows of NumPy arrays come in, packed records go
+//! out; `python/meshsweep` gives them names.
+
+mod build;
+mod error;
+mod model;
+mod pairs;
+mod record;
+mod rows;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _meshsweep {
+    #[pymodule_export]
+    use crate::build::{build_file, build_mesh, words_of_for};
+    #[pymodule_export]
+    use crate::error::{BlobError, BuildError, MeshsweepError, NotServedError, QueryError};
+    #[pymodule_export]
+    use crate::model::Model;
+}

@@ -1,0 +1,145 @@
+"""What builds, what is refused, and with which words."""
+
+import pickle
+import threading
+
+import meshsweep
+import numpy as np
+import pytest
+from conftest import sphere
+
+
+def test_a_file_and_its_arrays_give_the_same_answers(fixtures):
+    trimesh = pytest.importorskip("trimesh")
+    file = fixtures / "bracket.stl"
+    of_file = meshsweep.build(file)
+    loaded = trimesh.load(file, process=False)
+    points = np.random.default_rng(1).uniform(0, 50, (100, 3)).astype(np.float32)
+    wanted = of_file.closest_point(points)
+    for mesh in [loaded, (loaded.vertices, loaded.faces)]:
+        found = meshsweep.build(mesh).closest_point(points)
+        assert (found.lower == wanted.lower).all() and (found.upper == wanted.upper).all()
+
+
+def test_the_bytes_are_those_that_are_saved_loaded_and_pickled(tmp_path, fixtures):
+    part = meshsweep.build(fixtures / "bracket.stl", ["closest", "tight"])
+    assert part.serves == ["closest", "tight"] and part.is_closed and part.has_sides
+    part.save(tmp_path / "part.msw")
+    again = meshsweep.load(tmp_path / "part.msw")
+    assert bytes(again) == bytes(part) == bytes(pickle.loads(pickle.dumps(part)))
+    assert again.report == [] and any("read" in note.text for note in part.report)
+    assert "closest,tight" in repr(part)
+
+
+def test_repairs_are_reported():
+    vertices, triangles = sphere()
+    doubled = np.vstack([triangles, triangles[:1]])
+    notes = [note.text for note in meshsweep.build((vertices, doubled)).report]
+    assert any("triangle" in note for note in notes)
+
+
+@pytest.mark.parametrize(
+    "mesh, words",
+    [
+        ("/nowhere.stl", "/nowhere.stl"),
+        ((np.zeros((3, 3)), [[0, 1, 5]]), "vertex 5"),
+        ((np.zeros((3, 2)), [[0, 1, 2]]), r"shape \(v, 3\)"),
+        ((np.zeros((3, 3)), [[0.5, 1, 2]]), "integers"),
+        ((np.zeros((3, 3)), [[-1, 1, 2]]), "negative"),
+        (([[0, 0, 0], [np.nan, 0, 0], [0, 1, 0]], [[0, 1, 2]]), "NaN|finite"),
+        (7, "vertices"),
+    ],
+)
+def test_a_mesh_that_is_refused_is_told_why(mesh, words):
+    with pytest.raises(meshsweep.BuildError, match=words):
+        meshsweep.build(mesh)
+
+
+def test_options_are_refused_by_name():
+    for options, words in [
+        ({"for_": "closests"}, "closest, segment"),
+        ({"vertex_bits": 7}, "16, 24 and 32"),
+        ({"tight_faces": [20]}, "tight"),
+        ({"for_": "sdf", "sdf_bytes": 1}, "sdf"),
+        ({"unit": "mile"}, "um, mm"),
+    ]:
+        with pytest.raises(meshsweep.BuildError, match=words):
+            meshsweep.build(sphere(), **options)
+
+
+def test_questions_are_refused_with_the_row_and_the_word_to_build_with():
+    part = meshsweep.build(sphere(), "closest")
+    points = np.zeros((5, 3), np.float32)
+    points[3, 1] = np.inf
+    with pytest.raises(meshsweep.QueryError, match="row 3"):
+        part.closest_point(points)
+    with pytest.raises(meshsweep.NotServedError, match='for_="segment"'):
+        part.first_hit(points[:1], points[:1])
+    with pytest.raises(meshsweep.QueryError, match=r"shape \(n, 3\)"):
+        part.closest_point(np.zeros((4, 2)))
+    with pytest.raises(meshsweep.QueryError, match="negative"):
+        part.within(points[:1], -1)
+    assert issubclass(meshsweep.NotServedError, ValueError)
+    assert len(part.closest_point(np.zeros((0, 3)))) == 0
+
+
+def test_damaged_bytes_are_refused():
+    part = bytearray(bytes(meshsweep.build(sphere())))
+    part[100] ^= 1
+    for bad in [b"", b"not a blob", bytes(part)]:
+        with pytest.raises(meshsweep.BlobError):
+            meshsweep.Model(bad)
+
+
+def test_progress_rises_to_one_and_its_exception_ends_the_build():
+    told = []
+    meshsweep.build(sphere(20, 30), "tight", progress=lambda *told_: told.append(told_))
+    parts = [part for _, part in told]
+    assert parts == sorted(parts) and told[-1] == ("done", 1.0)
+
+    def stop(_stage, part):
+        if part > 0.1:
+            raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        meshsweep.build(sphere(20, 30), "tight", progress=stop)
+
+
+def test_other_threads_run_while_a_question_is_asked():
+    part = meshsweep.build(sphere(40, 60))
+    points = np.random.default_rng(2).uniform(-2, 2, (400_000, 3)).astype(np.float32)
+    found, counted = [], 0
+    asking = threading.Thread(target=lambda: found.append(part.closest_point(points)))
+    asking.start()
+    while asking.is_alive():
+        counted += 1
+    assert counted > 1000 and len(found[0]) == len(points)
+
+
+def test_curves_answer_with_segments(tmp_path):
+    (tmp_path / "path.csv").write_text("x,y,z\n0,0,0\n1,0,0\n1,1,0\n")
+    path = meshsweep.build(tmp_path / "path.csv")
+    (near,) = path.closest_point(np.array([[2, 0.5, 0]], np.float32))
+    assert near.segment == 1 and near.polyline == 0
+    assert near.lower <= 1 <= near.upper
+
+
+def test_the_tour_shows_a_part(fixtures):
+    import subprocess
+    import sys
+
+    file = str(fixtures / "bracket.stl")
+    run = [sys.executable, "-m", "meshsweep", file]
+    shown = subprocess.run(run, capture_output=True, text=True, check=True).stdout
+    assert "clear, proved" in shown and "100,000 closest points" in shown
+    bad = subprocess.run([*run[:-1], "nowhere.stl"], capture_output=True, text=True, check=False)
+    assert bad.returncode == 1 and "nowhere.stl" in bad.stderr
+
+
+def test_the_lines_of_the_readme_run(tmp_path, monkeypatch, fixtures):
+    text = (fixtures.parent / "alloc-ext/python/README.md").read_text()
+    lines = text.split("```python\n")[1].split("```")[0]
+    (tmp_path / "link.stl").write_bytes((fixtures / "bracket.stl").read_bytes())
+    monkeypatch.chdir(tmp_path)
+    exec(compile(lines.replace("1_000_000", "10_000"), "README.md", "exec"), {})  # noqa: S102
+    assert (tmp_path / "link.msw").stat().st_size > 1000
