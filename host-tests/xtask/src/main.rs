@@ -27,6 +27,7 @@ cargo xtask firmware                only the firmware: bits, panics, sizes, inst
 cargo xtask examples                only core/examples, on a Cortex-M4F, and defmt
 cargo xtask c                       only the C interface: its programs here and in QEMU
 cargo xtask python                  the Python package: its wheel in target/dist, types, tests
+cargo xtask python race MESH...     the same beside other packages of PyPI
 cargo xtask dist [TARGET...]        static libraries for C, an archive a target, in target/dist;
                                     manual: shell completions and man pages of the program
 cargo xtask fuzz [MINUTES] [TARGET...]
@@ -115,6 +116,7 @@ fn main() -> ExitCode {
             }
         }
         ["python"] => python::run(&mut steps),
+        ["python", "race", meshes @ ..] => python::race(&mut steps, meshes),
         ["dist", targets @ ..] => dist::run(&mut steps, targets),
         ["fuzz", words @ ..] => {
             let minutes: Option<NonZeroU32> = words.first().and_then(|word| word.parse().ok());

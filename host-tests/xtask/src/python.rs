@@ -18,6 +18,28 @@ const PIP: Wanted =
 const PACKAGES: [&str; 7] =
     ["maturin>=1.8,<2", "numpy", "pytest>=8", "trimesh", "tqdm", "mypy>=1.11", "ruff>=0.8"];
 
+/// What the package is raced against.
+const RIVALS: [&str; 5] = ["libigl", "python-fcl", "coal", "rtree", "scipy"];
+
+/// Races the package against others of PyPI on these meshes.
+pub fn race(steps: &mut Steps, meshes: &[&str]) {
+    let Some(python) = steps.run("Python: an environment", environment) else { return };
+    let ready = steps.run("Python: the wheel, and packages to race", || {
+        wheel(&python)?;
+        process::run(pip(&python).args(RIVALS))
+    });
+    if ready.is_some() {
+        steps.run("Python: race", || {
+            let mut command = Command::new(&python);
+            command.arg(workspace::root().join("host-tests/lab/src/race/packages.py")).args(meshes);
+            for threads in ["RAYON_NUM_THREADS", "IGL_NUM_THREADS", "OMP_NUM_THREADS"] {
+                command.env(threads, "1");
+            }
+            process::run(&mut command)
+        });
+    }
+}
+
 /// Builds the wheel into `target/dist`, installs it aside, and runs the package's tests.
 pub fn run(steps: &mut Steps) {
     let Some(python) = steps.run("Python: an environment", environment) else { return };
@@ -85,9 +107,14 @@ fn environment() -> Result<PathBuf, String> {
             process::run(&mut command)?;
         }
     }
-    let mut command = Command::new(&python);
+    process::run(pip(&python).args(PACKAGES)).map(|()| python)
+}
+
+/// Installs what is named behind it.
+fn pip(python: &Path) -> Command {
+    let mut command = Command::new(python);
     command.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
-    process::run(command.args(PACKAGES)).map(|()| python)
+    command
 }
 
 /// Debian's wheel of pip, which runs without being installed.

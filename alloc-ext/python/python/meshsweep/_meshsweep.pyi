@@ -1,5 +1,5 @@
 from collections.abc import Callable
-from typing import Any, TypedDict, TypeAlias
+from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
