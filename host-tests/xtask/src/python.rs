@@ -15,8 +15,16 @@ const PIP: Wanted =
     Wanted { name: "pip", alternatives: &[&["python3-pip-whl"]], ignore_installed: &[] };
 
 /// What builds, checks and tests the package.
-const PACKAGES: [&str; 7] =
-    ["maturin>=1.8,<2", "numpy", "pytest>=8", "trimesh", "tqdm", "mypy>=1.11", "ruff>=0.8"];
+const PACKAGES: [&str; 8] = [
+    "maturin>=1.8,<2",
+    "numpy",
+    "pytest>=8",
+    "trimesh",
+    "tqdm",
+    "mypy>=1.11",
+    "ruff>=0.8",
+    "dask[distributed]",
+];
 
 /// What the package is raced against.
 const RIVALS: [&str; 5] = ["libigl", "python-fcl", "coal", "rtree", "scipy"];
