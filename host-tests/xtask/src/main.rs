@@ -86,6 +86,7 @@ fn main() -> ExitCode {
                     }
                     let here = count_suite::run(&mut steps);
                     checks::lints(&mut steps);
+                    python::lints(&mut steps);
                     (rows, counts, here, steps)
                 });
                 checks::run(&mut steps);

@@ -51,19 +51,7 @@ pub fn race(steps: &mut Steps, meshes: &[&str]) {
 /// Builds the wheel into `target/dist`, installs it aside, and runs the package's tests.
 pub fn run(steps: &mut Steps) {
     let Some(python) = steps.run("Python: an environment", environment) else { return };
-    let manifest = folder().join("Cargo.toml").to_string_lossy().into_owned();
-    for (title, words) in [
-        ("Python: formatting of Rust", &["fmt", "--check", "--manifest-path", &manifest][..]),
-        ("Python: lints of Rust", &["clippy", "--quiet", "--locked", "--manifest-path", &manifest]),
-    ] {
-        steps.run(title, || {
-            let mut command = cargo(words);
-            if words.contains(&"clippy") {
-                command.args(["--", "-D", "warnings"]);
-            }
-            process::run(command.env("CARGO_TARGET_DIR", workspace::target().join("python")))
-        });
-    }
+    lints(steps);
     let built = steps.run("Python: the wheel", || wheel(&python));
     for (title, tool) in [
         ("Python: style", &["ruff", "check", "--quiet", "."][..]),
@@ -78,6 +66,25 @@ pub fn run(steps: &mut Steps) {
                 &python,
                 &["pytest", "--quiet", "-p", "no:cacheprovider", "tests"],
             ))
+        });
+    }
+}
+
+/// Formatting and lints of the package's Rust, which need no Python.
+pub fn lints(steps: &mut Steps) {
+    let manifest = folder().join("Cargo.toml").to_string_lossy().into_owned();
+    let lint =
+        ["clippy", "--quiet", "--locked", "--manifest-path", &manifest, "--", "-D", "warnings"];
+    for (title, words) in [
+        ("Python: formatting of Rust", &["fmt", "--check", "--manifest-path", &manifest][..]),
+        ("Python: lints of Rust", &lint),
+    ] {
+        steps.run(title, || {
+            let mut command = cargo(words);
+            command.env("CARGO_TARGET_DIR", workspace::target().join("python"));
+            // An extension links no library of Python, so none has to be there.
+            command.env("PYO3_NO_PYTHON", "1").env("PYO3_BUILD_EXTENSION_MODULE", "1");
+            process::run(&mut command)
         });
     }
 }
