@@ -228,8 +228,8 @@ class Model:
         """Whether the surface is at most `distance` from each point.
 
         Fields: `verdict` (a `Verdict`: 0 only where it is proved that nothing is so near);
-        `triangle`, the witness of a `YES`, or -1; `ended`; `work`. Deep inside a part nothing is
-        near.
+        `triangle`, the witness of a `YES`, or -1, of curves its segment; `ended`; `work`. Deep
+        inside a part nothing is near.
         """
         rows, moved = _points(points)
         size = _records.WITHIN.itemsize
