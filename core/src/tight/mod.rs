@@ -6,6 +6,7 @@
 //! | `closest_point` | the distance of the mesh by its hull |
 //! | `within` | whether the mesh is within a distance |
 //! | `side` | whether a point is certainly outside a hull |
+//! | `crossings` | the same within the hull's box, by the faces that a ray crosses |
 //!
 //! *The interval.* Let H be the hull, P the mesh, p the point. If p is outside H, every way from p
 //! to P crosses H: |p P| ≥ |p H|. Wherever p is, a way to P may be continued to H: |p P| ≥ |p H| −
@@ -14,8 +15,8 @@
 //! enclose the mesh, and round outward (`core/docs/rounding.md` §12).
 //!
 //! *The side.* A point outside the box of the hull's tree is outside if it is farther from the hull
-//! than storing moved it. Elsewhere [`Bvh::signed_distance`](crate::Bvh::signed_distance) decides.
-//! An undecided side counts as inside.
+//! than storing moved it. Elsewhere the faces that a ray crosses decide. A point that is as near to
+//! the hull as rounding of the ray's end counts as inside.
 //!
 //! *Lost* (*historical*, Cortex-M4F, 1,000 places each). A table beside the hull: a ball for each
 //! leaf and a plane in bytes for each face, which leave faces out in integers. Of 20 faces it took
@@ -25,6 +26,7 @@
 //! A distance field answers in 200 instructions.
 
 mod closest_point;
+mod crossings;
 pub mod format;
 mod side;
 mod within;
