@@ -138,7 +138,6 @@ fn maybe_crossed(leaf: &FanLeaf<'_>, place: [i32; 3]) -> Option<u32> {
 }
 
 /// Whether the ray crosses an odd number of the triangles of a leaf whose bits in `lanes` are ones.
-/// Vertices in f32 move down to the grid.
 #[inline(never)]
 fn crosses_oddly(
     tree: &Bvh<'_>,
@@ -150,20 +149,36 @@ fn crosses_oddly(
     let used = !(u32::MAX << (shape.triangles() & 31));
     let mut is_odd = false;
     for lane in lanes_of(lanes & used) {
-        let mut corners = [[0; 3]; 3];
-        if leaf.is_f32() {
-            for (corner, stored) in corners.iter_mut().zip(leaf.stored_corners(lane)) {
-                let stored = stored.to_array().into_iter().zip(leaf.origin);
-                for (x, (of, origin)) in corner.iter_mut().zip(stored) {
-                    *x = floored((Real(of) - Real(float(origin))).0, 0).clamp(0, 0xFFFF);
-                }
-            }
+        let corners = if leaf.is_f32() {
+            f32_corners(&leaf, lane, place)
         } else {
-            corners = leaf.grid_ring()?.corners(lane, shape.turn())?;
-        }
-        is_odd ^= is_crossed(&corners, place);
+            Some(leaf.grid_ring()?.corners(lane, shape.turn())?)
+        };
+        is_odd ^= corners.is_some_and(|corners| is_crossed(&corners, place));
     }
     Some(is_odd)
+}
+
+/// The corners of a triangle with vertices in f32, which move down to the grid. `None` if the ray
+/// does not meet its box.
+#[inline(never)]
+fn f32_corners(leaf: &FanLeaf<'_>, lane: usize, [x, y, z]: [i32; 3]) -> Option<[[i32; 3]; 3]> {
+    let [a, b, c] = leaf.stored_corners(lane);
+    let ([ox, oy, oz], mut rows) = (leaf.origin, [[0; 3]; 3]);
+    let stored =
+        [([a.y, b.y, c.y], oy, y, 2), ([a.z, b.z, c.z], oz, z, 2), ([a.x, b.x, c.x], ox, x, 3)];
+    for (row, (stored, origin, place, most)) in rows.iter_mut().zip(stored) {
+        let mut above = 0;
+        for (whole, of) in row.iter_mut().zip(stored) {
+            *whole = floored((Real(of) - Real(float(origin))).0, 0).clamp(0, 0xFFFF);
+            above += u32::from(*whole > place >> FINE);
+        }
+        if above == 0 || above > most {
+            return None;
+        }
+    }
+    let [[ay, by, cy], [az, bz, cz], [ax, bx, cx]] = rows;
+    Some([[ax, ay, az], [bx, by, bz], [cx, cy, cz]])
 }
 
 /// Whether the ray crosses a triangle. Corners have 16 bits.
