@@ -131,6 +131,17 @@ impl<'a> Bytes<'a> {
         }
     }
 
+    /// The record at a place, where all have `N` fields of `W` bytes. Two comparisons say that it
+    /// is there. Single bytes would be put together again after each way to them.
+    #[inline(always)]
+    pub(crate) fn record<const W: usize, const N: usize>(
+        self,
+        place: u32,
+    ) -> Option<&'a [[u8; W]; N]> {
+        let at = (place as usize).checked_mul(const { W * N })?;
+        self.0.get(at..)?.as_chunks::<W>().0.first_chunk()
+    }
+
     /// Three indices of `width` bytes, side by side.
     #[inline(always)]
     pub(crate) fn index3(self, at: usize, width: usize) -> Option<[u32; 3]> {

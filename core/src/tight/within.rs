@@ -1,8 +1,10 @@
 //! Whether a part is within a distance, by its hull.
 
 use super::closest_point::upper_end;
-use super::side::is_outside_box;
-use crate::query::{Budget, Decided, Ended, QueryError, ScratchEntry, Side, Undecided, Verdict};
+use super::crossings::{has_side, is_outside};
+use super::side::{is_box_beyond, is_outside_box, seen_from};
+use crate::num::sum_down;
+use crate::query::{Budget, Decided, Ended, QueryError, ScratchEntry, Undecided, Verdict, Work};
 use crate::tight::format::TightHull;
 
 impl TightHull<'_> {
@@ -14,8 +16,10 @@ impl TightHull<'_> {
     /// collision avoidance, treat undecided as `Yes`. There is no witness. `budget` and `scratch`
     /// as for [`Bvh::within`](crate::Bvh::within).
     ///
-    /// Cost: if the hull is farther, that of its tree's `within`, and inside the hull's box also of
-    /// its signed distance. Else that of its tree's closest point too.
+    /// Cost: if the hull's box is farther, that of the distance from a box. If the hull is farther,
+    /// that of its tree's `within`, and inside the hull's box also of a ray through the hull. Else
+    /// also that of its tree's `within` for the distance less the hull's slack, and if that does not
+    /// decide, of its tree's closest point.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Scratch, TightHulls};
@@ -38,20 +42,38 @@ impl TightHull<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<Decided<u32>, QueryError> {
         let tree = self.bvh();
-        let near = tree.within(point, distance, budget, scratch)?;
         let answer = |verdict, work| Ok(Decided { verdict, witness: None, work });
-        if near.is_clear() && is_outside_box(tree, point) {
-            return answer(Verdict::No, near.work);
+        if is_box_beyond(tree, point, distance) {
+            budget.check_about(distance, scratch)?;
+            return answer(Verdict::No, Work::default());
         }
-        // A side needs the closest point itself.
-        let budget = Budget::EXACT.with_steps(budget.steps);
+        let near = tree.within(point, distance, budget, scratch)?;
+        let mut work = near.work;
+        if near.is_clear() && is_outside_box(tree, point) {
+            return answer(Verdict::No, work);
+        }
+        if near.is_clear() && has_side(tree, distance) {
+            let is_outside = is_outside(tree, point).ok_or(QueryError::Unchecked)?;
+            let inside = Verdict::Undecided(Undecided::Resolution);
+            return answer(if is_outside { Verdict::No } else { inside }, work);
+        }
+        // A face so near has the mesh within its slack: the closest point would say `Yes` as well.
+        // If the slack is more than half of the distance, that is rare.
+        let (slack, inner) = (self.record().slack, sum_down(distance, -self.record().slack));
+        if near.verdict == Verdict::Yes && inner >= slack {
+            let near = tree.within(point, inner, budget, scratch)?;
+            work = work.and(near.work);
+            if near.verdict == Verdict::Yes {
+                return answer(Verdict::Yes, work);
+            }
+        }
         let (closest, is_outside) = if near.is_clear() {
-            let signed = tree.signed_distance(point, budget, scratch)?;
-            (signed.closest, signed.side == Side::Outside)
+            seen_from(tree, point, budget.steps, scratch)?
         } else {
+            let budget = Budget::EXACT.with_steps(budget.steps);
             (tree.closest_point(point, budget, scratch)?, false)
         };
-        let work = near.work.and(closest.work);
+        work = work.and(closest.work);
         if is_outside {
             return answer(Verdict::No, work);
         }

@@ -207,22 +207,34 @@ impl Curve<'_> {
     }
 
     /// A point, local frame.
+    // One look at the flags and one record a point: a check of each coordinate costs as much as the
+    // distance.
     #[inline(always)]
     pub(crate) fn point(&self, index: u32) -> Option<Vec3> {
-        let header = &self.header;
-        let at = (index as usize).checked_mul(header.point_bytes())?;
-        let planar = header.flags & CURVES_PLANAR != 0;
-        if header.is_f32() {
-            let (x, y) = (self.points.f32(at)?, self.points.f32(at.checked_add(4)?)?);
-            let z = if planar { 0.0 } else { self.points.f32(at.checked_add(8)?)? };
-            return Some(Vec3::new(x, y, z));
-        }
-        let [ox, oy, oz] = header.grid_origin;
-        let (x, y) = (self.points.u16(at)?, self.points.u16(at.checked_add(2)?)?);
-        let place = |stored: u16, origin: i32| origin.wrapping_add(i32::from(stored)) as f32;
-        let z = if planar { 0.0 } else { place(self.points.u16(at.checked_add(4)?)?, oz) };
+        let [ox, oy, oz] = self.header.grid_origin;
+        let place = |stored: [u8; 2], origin: i32| {
+            origin.wrapping_add(i32::from(u16::from_le_bytes(stored))) as f32
+        };
+        let (x, y, z) = match self.header.flags & (CURVES_PLANAR | CURVES_F32) {
+            0 => {
+                let &[x, y, z] = self.points.record(index)?;
+                (place(x, ox), place(y, oy), place(z, oz))
+            }
+            CURVES_PLANAR => {
+                let &[x, y] = self.points.record(index)?;
+                (place(x, ox), place(y, oy), 0.0)
+            }
+            CURVES_F32 => {
+                let &[x, y, z] = self.points.record(index)?;
+                return Some(Vec3::from_array([x, y, z].map(f32::from_le_bytes)));
+            }
+            _ => {
+                let &[x, y] = self.points.record(index)?;
+                return Some(Vec3::new(f32::from_le_bytes(x), f32::from_le_bytes(y), 0.0));
+            }
+        };
         // Exact: the integers are below 2^24, the unit is a power of two.
-        Some(Vec3::new(place(x, ox), place(y, oy), z) * self.unit)
+        Some(Vec3::new(x, y, z) * self.unit)
     }
 
     /// The coordinate of a point along an axis of the plane, 0 or 1, as an integer. The order of
@@ -253,7 +265,26 @@ impl Curve<'_> {
 
     #[inline(always)]
     pub(crate) fn node(&self, index: u32) -> Option<Node> {
-        let width = self.header.index_bytes();
+        let short = |bytes| u32::from(u16::from_le_bytes(bytes));
+        let (first, last, radius) = match self.header.index_bytes() {
+            1 => {
+                let &[[first, last], radius] = self.nodes.record(index)?;
+                (u32::from(first), u32::from(last), radius)
+            }
+            2 => {
+                let &[first, last, radius] = self.nodes.record(index)?;
+                (short(first), short(last), radius)
+            }
+            width => return self.long_node(index, width),
+        };
+        Some(Node { first, last, radius: Radius16(u16::from_le_bytes(radius)).get() })
+    }
+
+    /// A node of more than 65,535 points.
+    // A call: three bytes that are put together in line make the compiler put the numbers of all
+    // widths together, byte by byte.
+    #[inline(never)]
+    fn long_node(&self, index: u32, width: usize) -> Option<Node> {
         let at = (index as usize).checked_mul(self.header.node_bytes())?;
         let second = at.checked_add(width)?;
         Some(Node {

@@ -11,7 +11,7 @@ use meshsweep_host_tests::generate::{
     Rng, Triangles, bracket, groove_block, icosphere, rough_sphere, scaled, torus, transformed,
     two_parts,
 };
-use meshsweep_host_tests::oracle::{distance_to_mesh, distance_to_triangle};
+use meshsweep_host_tests::oracle::{distance_to_mesh, distance_to_triangle, winding_number};
 use std::sync::LazyLock;
 
 /// Points everywhere: far, around, on the surface of mesh and hull, at corners of both, and within.
@@ -236,6 +236,57 @@ fn no_point_of_a_face_is_farther_from_the_mesh_than_the_face_says() {
             assert!(real.lower <= f64::from(record.depth), "{name}: {p:?}");
         }
     }
+}
+
+/// Off the surface a side is always told: outside the lower end is the hull's distance, inside it is
+/// less by the hull's depth. Half of the points have coordinates of the hull's vertices.
+#[test]
+fn within_the_box_the_side_is_that_of_the_winding_number() {
+    let shapes = [torus(2.0, 0.75, 16, 10), bracket(), two_parts()];
+    let mut sides = [0; 2];
+    for (round, shape) in shapes.iter().enumerate() {
+        let kinds = [VertexBits::Grid16, VertexBits::F32];
+        for (bits, segments) in kinds.into_iter().flat_map(|bits| [(bits, true), (bits, false)]) {
+            let options = options(&[90]).with_vertex_bits(bits).with_boxes(true, segments);
+            let (bytes, _) = of(&mesh(shape), 0.0, &options);
+            let hull = TightHulls::open(&bytes).expect("opens").finest().expect("a hull");
+            assert_eq!(hull.bvh().header().is_f32(), bits == VertexBits::F32);
+            let (surface, depth) = (hull_mesh(&hull), hull.record().depth);
+            let [low, high] = hull.bvh().bounds();
+            let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f32::max);
+            let rng = &mut Rng::new(31 + round as u64);
+            let mut stack = [ScratchEntry::EMPTY; 128];
+            for index in 0..400 {
+                let mut p = rng.point_in(low, high);
+                if index % 2 == 0 {
+                    p = [0, 1, 2].map(|k| surface.positions[rng.below(surface.positions.len())][k]);
+                }
+                let near = hull.bvh().closest_point(p, Budget::EXACT, &mut stack).expect("asked");
+                let lower = near.distance.lower;
+                if lower < 1e-4 * size {
+                    continue;
+                }
+                let number = winding_number(
+                    p.map(f64::from),
+                    &surface.positions,
+                    &surface.triangles,
+                    f64::from(size),
+                );
+                assert!((number - number.round()).abs() < 1e-6, "{number}");
+                let answer = hull.closest_point(p, Budget::EXACT, &mut stack).expect("asked");
+                let is_outside = number.round() == 0.0;
+                let inside = (f64::from(lower) - f64::from(depth)).max(0.0);
+                let wanted = if is_outside { f64::from(lower) } else { inside };
+                let found = f64::from(answer.distance.lower);
+                assert!((found - wanted).abs() <= 1e-6 * f64::from(size), "{bits:?} {p:?}");
+                // Half of the distance, for the mesh is as near as the hull or nearer.
+                let within = hull.within(p, 0.5 * lower, Budget::EXACT, &mut stack).expect("asked");
+                assert_eq!(within.is_clear(), is_outside, "{bits:?} {p:?}");
+                sides[usize::from(is_outside)] += 1;
+            }
+        }
+    }
+    assert!(sides.iter().all(|&count| count > 500), "{sides:?}");
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 #[cfg(not(meshsweep_wide))]
 use super::leaf_shape::LeafShape;
-#[cfg(not(meshsweep_wide))]
 use crate::geom::fan::WIDTH;
 
 /// Bytes of the largest leaf on the grid: two centres and nine ring vertices.
@@ -42,7 +41,6 @@ impl GridRing<'_> {
 }
 
 /// Ring vertices of the largest leaf.
-#[cfg(not(meshsweep_wide))]
 pub(super) const RING_VERTICES: usize = WIDTH + 1;
 
 /// Stored integers of a leaf on the grid with the greatest number of ring vertices. They do not
@@ -57,7 +55,6 @@ pub struct FullRing<'a> {
 }
 
 /// A row of ring coordinates. The last row of the largest leaf ends with the window.
-#[cfg(not(meshsweep_wide))]
 #[inline(always)]
 pub(super) fn ring_row(window: &[u8; GRID_WINDOW], at: usize) -> Option<&[[u8; 2]; RING_VERTICES]> {
     window.get(at.min(GRID_WINDOW - 2 * RING_VERTICES)..)?.as_chunks::<2>().0.first_chunk()
@@ -134,7 +131,7 @@ fn grid_point([x, y, z]: [&[u8; 2]; 3]) -> [i32; 3] {
 }
 
 #[inline(always)]
-fn short_of(pair: [u8; 2]) -> i32 {
+pub(super) fn short_of(pair: [u8; 2]) -> i32 {
     i32::from(u16::from_le_bytes(pair))
 }
 

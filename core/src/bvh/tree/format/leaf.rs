@@ -4,9 +4,7 @@
 
 #[cfg(not(meshsweep_wide))]
 use super::grid_ring::FullRing;
-#[cfg(not(meshsweep_wide))]
-use super::grid_ring::ring_row;
-use super::grid_ring::{GRID_WINDOW, GridRing, short, three};
+use super::grid_ring::{GRID_WINDOW, GridRing, ring_row, short, short_of, three};
 use super::leaf_shape::LeafShape;
 #[cfg(meshsweep_wide)]
 use crate::geom::fan::{Ring8, WIDTH};
@@ -240,6 +238,22 @@ impl<'a> FanLeaf<'a> {
             y,
             z,
         })
+    }
+
+    /// Bits of the ring vertices of a leaf on the grid whose stored coordinate is above `floor`, the
+    /// first vertex's lowest, and the same of both centres. Bits past the ring have no meaning.
+    #[inline(always)]
+    pub(crate) fn above(&self, axis: usize, floor: i32) -> Option<(u32, u32, u32)> {
+        let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
+        let (centres, step) = (self.shape.centres(), 2 * (self.shape.triangles() + 1));
+        // The sign of the difference.
+        let is_above = |x: i32| floor.wrapping_sub(x).cast_unsigned() >> 31;
+        let mut ring = 0;
+        for pair in ring_row(window, 6 * centres + step * axis)?.iter().rev() {
+            ring = ring << 1 | is_above(short_of(*pair));
+        }
+        let centre = |which: usize| is_above(short(window, 6 * which + 2 * axis));
+        Some((ring, centre(0), centre(centres - 1)))
     }
 
     /// The stored integers of a leaf on the grid, as many as the largest leaf has.
