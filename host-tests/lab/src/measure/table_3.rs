@@ -29,7 +29,7 @@ const SECONDS_WITHOUT: f64 = 362.63;
 const SECOND: usize = 1;
 
 /// Characters of the longest bar.
-const BAR: f64 = 60.0;
+const BAR: f64 = 40.0;
 
 /// Segments after which a kept hull is reset.
 const KEPT: [usize; 3] = [1, 10, 100];
