@@ -12,7 +12,7 @@ use crate::number::{About, AtMost};
 use crate::sdf::{SdfKind, SdfReport};
 use crate::surface::VertexBits;
 use crate::tight::{Goal, HullReport, margin_note, no_void_note, rounded_note};
-use crate::tribox::TriboxReport;
+use crate::tribox::{TriboxReport, volume};
 use meshsweep_core::Blob;
 use meshsweep_core::internal::format::layout::VertexFormat;
 
@@ -83,13 +83,15 @@ pub(super) fn of_blob(
         reports.iter().for_each(|report| tight.extend(of_tight(report)));
     }
     let sdf = built.sdf.as_ref().map_or_else(Vec::new, of_sdf);
-    let triboxes = built.triboxes.as_ref().and_then(|report| of_triboxes(options, report));
+    let triboxes = built.triboxes.as_ref();
+    let oriented = triboxes.and_then(|report| of_orient(options, report, loaded));
+    let triboxes = triboxes.and_then(|report| of_triboxes(options, report));
     let winding = if options.serves(For::Winding) { of_winding(loaded) } else { vec![] };
     notes(Topic::Input, of_mesh(loaded, built.hull.as_ref()))
         .chain(notes(Topic::Hull, hull))
         .chain(notes(Topic::BoxTree, tree))
         .chain(notes(Topic::Sides, sides))
-        .chain(notes(Topic::Triboxes, triboxes))
+        .chain(notes(Topic::Triboxes, oriented.into_iter().chain(triboxes)))
         .chain(notes(Topic::Tight, tight))
         .chain(notes(Topic::Sdf, sdf))
         .chain(notes(Topic::Winding, winding))
@@ -194,6 +196,13 @@ fn of_triboxes(options: &Options, report: &TriboxReport) -> Option<String> {
         AtMost(reached)
     );
     (reached > wanted).then_some(text)
+}
+
+/// Says what turning triboxes gained.
+fn of_orient(options: &Options, report: &TriboxReport, loaded: &Loaded) -> Option<String> {
+    let (measure, gain) = (options.orient?, report.oriented?);
+    let solid = report.is_solid.then(|| volume(&loaded.mesh));
+    Some(gain.said(&format!("--orient {}", measure.name()), solid).to_string())
 }
 
 /// Names the tight hulls that the blob lacks.

@@ -17,9 +17,10 @@ mod replay;
 mod report;
 mod surface;
 
+use super::file::StoredSurface;
 use super::finding::Finding;
 use super::input::Given;
-use crate::mesh::{Input, KeyFrame};
+use crate::mesh::{Input, KeyFrame, RawMesh};
 use forest::Forest;
 pub use parse::Blob;
 use replay::Hulls;
@@ -57,6 +58,20 @@ fn tables(bytes: &[u8]) -> Result<(Blob, Hulls, Forest, CheckReport), String> {
 
 const HULL: &str = "hull hierarchy";
 const FRAMES: &str = "key frames";
+
+/// Proves that the file's triangles are as near the finest surface as the header says. None of a
+/// blob whose finest levels were cut off.
+pub(super) fn verify_file(bytes: &[u8], raw: &RawMesh) -> Option<Finding> {
+    let blob = match Blob::parse(bytes) {
+        Ok(blob) if blob.is_cut => return None,
+        Ok(blob) => blob,
+        Err(error) => return Some(Finding::failed(HULL, error)),
+    };
+    let corners = blob.surface.iter().map(|&triangle| blob.corners(triangle));
+    let triangles = blob.source.iter().copied().zip(corners).collect();
+    let (scale_exponent, surface_error) = (blob.scale_exponent, blob.surface_error);
+    Some(StoredSurface { triangles, scale_exponent, surface_error }.verify(HULL, raw))
+}
 
 /// Proves a blob's hull hierarchy and that it is one of the mesh at all key frames.
 pub(crate) fn verify(bytes: &[u8], input: Input<'_>, keys: &[KeyFrame], out: &mut Vec<Finding>) {

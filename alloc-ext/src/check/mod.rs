@@ -7,7 +7,7 @@
 //! | `tree`, `hull`, `tight`, `triboxes`, `curve`, `sdf` | the claims of one structure each |
 //! | `repair` | that a mesh is that of its file |
 //! | `enclosure` | that a hull encloses a mesh |
-//! | `file` | the file's triangles, before they were rounded, for proofs that hulls hold them |
+//! | `file` | the file's triangles, before they were rounded, and surface errors of them |
 //! | `input` | that stored corners are those of the mesh |
 //! | `near` | that all points of a triangle are near a surface |
 //! | `planar` | convex polygons cut in exact arithmetic |

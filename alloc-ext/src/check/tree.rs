@@ -16,11 +16,15 @@ mod proof;
 mod surface;
 
 use super::enclosure::Surface;
+use super::file::StoredSurface;
+use super::finding::Finding;
 use super::input::{Given, Stored};
-use crate::mesh::{Input, Mesh};
+use crate::mesh::{Input, Mesh, RawMesh};
 use chosen::Chosen;
 use parse::TreeBlob;
 pub use proof::TreeProof;
+
+pub(super) const TREE: &str = "box tree";
 
 /// Proves that a blob's box tree is one of `mesh`, which no vertex was moved in before but by
 /// [`Mesh::rounding`].
@@ -50,24 +54,28 @@ pub(crate) fn prove_tree(bytes: &[u8], input: Input<'_>) -> Result<TreeProof, St
     Ok(proof)
 }
 
-/// A box tree whose boxes hold what is below them, as the triangles that it stores, whatever these
-/// may be.
-pub(crate) struct Faces {
-    /// In the local frame.
-    pub(crate) triangles: Vec<Stored>,
-    /// Input coordinate = local coordinate × 2^this.
-    pub(crate) scale_exponent: i32,
-    /// Local frame.
-    pub(crate) surface_error: f64,
+/// Proves all of a blob's box tree but that it is the tree of a mesh.
+pub(super) fn prove_faces(bytes: &[u8]) -> Result<StoredSurface, String> {
+    let tree = TreeBlob::parse(bytes)?;
+    let stored = stored(&tree);
+    let corners = Surface::welded(stored.triangles.iter().map(|(_, corners)| *corners)).triangles;
+    measures(&tree, &corners, &mut boxes(&tree)?)?;
+    Ok(stored)
 }
 
-/// Proves all of a blob's box tree but that it is the tree of a mesh.
-pub(crate) fn prove_faces(bytes: &[u8]) -> Result<Faces, String> {
-    let tree = TreeBlob::parse(bytes)?;
+/// Proves that the file's triangles are as near the stored ones as the header says.
+pub(super) fn verify_file(bytes: &[u8], raw: &RawMesh) -> Finding {
+    match TreeBlob::parse(bytes) {
+        Ok(tree) => stored(&tree).verify(TREE, raw),
+        Err(error) => Finding::failed(TREE, error),
+    }
+}
+
+/// The triangles that a box tree stores, whatever these may be.
+fn stored(tree: &TreeBlob) -> StoredSurface {
     let triangles: Vec<Stored> = tree.triangles().collect();
-    let corners = Surface::welded(triangles.iter().map(|(_, corners)| *corners)).triangles;
-    measures(&tree, &corners, &mut boxes(&tree)?)?;
-    Ok(Faces { triangles, scale_exponent: tree.scale_exponent, surface_error: tree.surface_error })
+    let (scale_exponent, surface_error) = (tree.scale_exponent, tree.surface_error);
+    StoredSurface { triangles, scale_exponent, surface_error }
 }
 
 /// Every box holds what is below it.

@@ -7,13 +7,17 @@
 //! Each component lies before a part of the union's boundary. So one point before each part tells
 //! that the winding number is 0 in all of the complement.
 //!
-//! Hull errors and void ratios are not looked at.
+//! A node's hull error is proved of the part of the mesh in the node's tribox, by the nearest point
+//! of that part's convex hull to each corner.
 
 mod boundary;
+mod excess;
 mod parse;
 mod plane;
+mod shape;
 mod turn;
 
+use super::distance::ABSOLUTE;
 use super::enclosure::{Surface, Winding};
 use super::file::FileSurface;
 use super::finding::Finding;
@@ -22,11 +26,21 @@ use super::near::{Near, Verdict};
 use super::planar::Polygon;
 use crate::mesh::{Input, RawMesh};
 use boundary::{Exposed, exposed};
+use excess::{Content, Reach};
 use glam::DVec3;
 use parse::{NORMALS, Slabs, Triboxes};
 use plane::lines;
+use shape::Shape;
 
 const TRIBOXES: &str = "triboxes";
+
+/// What a distance from a convex hull may be off, local frame: corners of parts are rounded in grid
+/// units, whose origin may be sixteen meshes away.
+const DOUBT: f64 = 16.0 * ABSOLUTE;
+
+/// Largest relative error of a stored void: it is an f32, of volumes that a turn changes by a part
+/// of 2^-19.
+const VOID: f64 = 1e-5;
 
 /// The vertices of a mesh in the frame of the triboxes, grid units, and how far they may be off.
 fn placed(triboxes: &Triboxes, given: &Given<'_>, unit: f64) -> (Vec<[f64; 3]>, f64) {
@@ -135,6 +149,84 @@ fn is_close(parts: &[Exposed], mesh: &Near, unit: f64, limit: f64) -> Result<boo
     Ok(true)
 }
 
+/// What a distance of the mesh's frame is in that of the triboxes, at least.
+fn shortest(triboxes: &Triboxes, distance: f64) -> f64 {
+    triboxes.turn.as_ref().map_or(distance, |turn| turn.shortest(distance))
+}
+
+/// No tribox reaches farther beyond the convex hull of what it holds than its node and its levels
+/// say. `mesh` is in grid units, `solid` what bounds the inside.
+fn hull_errors(
+    triboxes: &Triboxes,
+    mesh: &[[[f64; 3]; 3]],
+    solid: Option<&Surface>,
+    unit: f64,
+) -> Result<Finding, String> {
+    let mesh: Vec<[DVec3; 3]> = mesh.iter().map(|corners| corners.map(DVec3::from)).collect();
+    let winding = solid.map(Winding::new);
+    let content = Content { mesh: &mesh, winding: winding.as_ref(), doubt: DOUBT / unit };
+    let claims = triboxes.claims();
+    let mut held: Vec<Vec<u32>> = Vec::with_capacity(claims.len());
+    let all: Vec<u32> = (0..mesh.len() as u32).collect();
+    let mut undecided = 0;
+    for (node, (slabs, parent, error)) in claims.iter().enumerate() {
+        let near = content.near(slabs, parent.map_or(&all, |parent| &held[parent]));
+        match content.reach(slabs, &near, shortest(triboxes, *error) / unit) {
+            Reach::Within => {}
+            Reach::Undecided => undecided += 1,
+            Reach::Beyond(p, d) => {
+                return Err(format!(
+                    "node {node} reaches {:e} beyond the convex hull of what it holds, at {}, \
+                     {error:e} is stated, local frame",
+                    d * unit,
+                    p * unit
+                ));
+            }
+        }
+        held.push(near);
+    }
+    Ok(match undecided {
+        0 => Finding::proved(
+            TRIBOXES,
+            "no tribox reaches farther beyond the convex hull of what it holds than stated",
+            &[("node", claims.len())],
+        ),
+        _ => Finding::not_proved(TRIBOXES, format!("the hull errors of {undecided} nodes")),
+    })
+}
+
+/// Void ratios are those of the triboxes and of the solid that these triangles bound.
+fn voids(triboxes: &Triboxes, mesh: &[[[f64; 3]; 3]]) -> Result<(), String> {
+    let corners = mesh.iter().map(|corners| corners.map(DVec3::from));
+    let origin = mesh.first().map_or(DVec3::ZERO, |corners| DVec3::from(corners[0]));
+    let six = corners.map(|t| t.map(|p| p - origin)).map(|[a, b, c]| a.dot(b.cross(c)));
+    let solid = six.sum::<f64>().abs() / 6.0;
+    let box_of = |k: usize| {
+        let along = || mesh.iter().flatten().map(|p| p[k]);
+        along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min)
+    };
+    // A thin solid's volume is what is left of large terms.
+    let doubt = VOID + 1e-12 * box_of(0) * box_of(1) * box_of(2) / solid;
+    for (index, level) in triboxes.levels.iter().enumerate() {
+        if level.void_ratio == 0.0 {
+            continue;
+        }
+        if !triboxes.is_solid {
+            return Err(format!("level {index}: a void beside no solid"));
+        }
+        let union = triboxes.union(level.triboxes);
+        let volume: f64 = union.iter().map(|(_, slabs)| Shape::of(slabs).volume).sum();
+        let void = (volume / solid - 1.0).min(f64::from(f32::MAX));
+        if (void - level.void_ratio).abs() > doubt * (1.0 + void.abs()) {
+            return Err(format!(
+                "level {index}: its void is {void:e}, the table says {:e}",
+                level.void_ratio
+            ));
+        }
+    }
+    Ok(())
+}
+
 /// Proves a blob's triboxes.
 pub(crate) fn verify(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) {
     if let Err(error) = findings(bytes, input, out) {
@@ -153,7 +245,7 @@ pub(super) fn verify_file(bytes: &[u8], raw: &RawMesh) -> Finding {
         }
         let Surface { positions, triangles } = &file.surface;
         let corners: Vec<_> = triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
-        let union = triboxes.union(triboxes.levels.last().map_or(0, |last| last.0));
+        let union = triboxes.union(triboxes.levels.last().map_or(0, |last| last.triboxes));
         let cut = holds(&union, &corners, 0.., file.error)
             .map_err(|error| format!("{error}, in the file"))?;
         Ok([triboxes.levels.len(), union.len(), corners.len(), cut])
@@ -181,7 +273,7 @@ fn findings(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) -> Result<()
     let (positions, moved) = placed(&triboxes, &given, unit);
     let mesh: Vec<[[f64; 3]; 3]> =
         given.mesh.all_triangles().map(|t| t.map(|v| positions[v as usize])).collect();
-    let finest = triboxes.levels.last().map_or(0, |last| last.0);
+    let finest = triboxes.levels.last().map_or(0, |last| last.triboxes);
     let union = triboxes.union(finest);
     let cut = holds(&union, &mesh, given.mesh.all_sources(), moved)?;
     out.push(Finding::proved(
@@ -194,14 +286,15 @@ fn findings(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) -> Result<()
             ("cut triangle", cut),
         ],
     ));
+    let mut surface = None;
     if triboxes.is_solid {
         if !is_closed(given.mesh) {
             return Err("they claim to hold the inside of a mesh that is not closed".into());
         }
         // A point outside of the union is farther from the mesh than its vertices may be off, so
         // the winding number there is the same.
-        let surface = Surface { positions, triangles: given.mesh.triangles.clone() };
-        let [parts, undecided] = inside(&exposed(&union), &surface)?;
+        let solid = surface.insert(Surface { positions, triangles: given.mesh.triangles.clone() });
+        let [parts, undecided] = inside(&exposed(&union), solid)?;
         out.push(match undecided {
             0 => Finding::proved(
                 TRIBOXES,
@@ -211,12 +304,14 @@ fn findings(bytes: &[u8], input: Input<'_>, out: &mut Vec<Finding>) -> Result<()
             _ => Finding::not_proved(TRIBOXES, "that they hold the inside".to_owned()),
         });
     }
+    out.push(hull_errors(&triboxes, &mesh, surface.as_ref(), unit)?);
+    voids(&triboxes, &mesh[..given.mesh.triangles.len()])?;
     let near =
         Near::new(mesh.iter().map(|corners| corners.map(|p| DVec3::from(p) * unit)).collect());
     let mut undecided = Vec::new();
-    for (index, &(count, distance)) in triboxes.levels.iter().enumerate() {
-        let parts = exposed(&triboxes.union(count));
-        let most = triboxes.turn.as_ref().map_or(distance, |turn| turn.shortest(distance));
+    for (index, level) in triboxes.levels.iter().enumerate() {
+        let parts = exposed(&triboxes.union(level.triboxes));
+        let most = shortest(&triboxes, level.distance);
         let is_decided = is_close(&parts, &near, unit, most)
             .map_err(|error| format!("level {index}: {error}"))?;
         if !is_decided {

@@ -3,12 +3,11 @@
 use super::bytes::{check_header, entries, section};
 use super::curve::FilePolyline;
 use super::finding::Finding;
-use super::tree::prove_tree;
-use super::{curve, hull, sdf, tight, triboxes};
+use super::tree::{TREE, prove_tree};
+use super::{curve, hull, sdf, tight, tree, triboxes};
 use crate::mesh::{Input, KeyFrame, RawMesh};
 
 const BYTES: &str = "blob";
-const TREE: &str = "box tree";
 
 /// What a blob is proved against.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +66,7 @@ pub fn verify(bytes: &[u8], against: Against<'_>) -> Vec<Finding> {
             ("curve", Against::Mesh(..)) | (_, Against::Curves(_)) => {
                 out.push(Finding::failed(structure, "it is not of the given file".to_owned()));
             }
-            (TREE, Against::Mesh(input, _)) => out.push(tree(bytes, input)),
+            (TREE, Against::Mesh(input, _)) => out.push(tree_of_mesh(bytes, input)),
             ("distance field", Against::Mesh(input, _)) => out.push(sdf::verify(bytes, input)),
             ("triboxes", Against::Mesh(input, _)) => triboxes::verify(bytes, input, &mut out),
             ("tight hulls", Against::Mesh(input, _)) => tight::verify(bytes, input, &mut out),
@@ -80,9 +79,9 @@ pub fn verify(bytes: &[u8], against: Against<'_>) -> Vec<Finding> {
     out
 }
 
-/// Proves that a blob's tight hulls and triboxes hold every triangle of the file, before rounding.
-/// A hull hierarchy makes no claim of the file: its levels enclose the surface as stored, and its
-/// surface error says how far that is from the file's.
+/// Proves what a blob claims of the file's triangles, before rounding: tight hulls and triboxes hold
+/// them, and the triangles of a box tree and of a hull hierarchy's finest surface are within the
+/// surface error of them. The hierarchy's levels enclose the surface as stored.
 ///
 /// The bytes must open, by [`Blob::open`](meshsweep_core::Blob::open).
 ///
@@ -98,10 +97,16 @@ pub fn verify_file(bytes: &[u8], raw: &RawMesh) -> Vec<Finding> {
     if kinds.contains(&20) {
         out.push(tight::verify_file(bytes, raw));
     }
+    if kinds.contains(&12) {
+        out.push(tree::verify_file(bytes, raw));
+    }
+    if kinds.contains(&1) {
+        out.extend(hull::verify_file(bytes, raw));
+    }
     out
 }
 
-fn tree(bytes: &[u8], input: Input<'_>) -> Finding {
+fn tree_of_mesh(bytes: &[u8], input: Input<'_>) -> Finding {
     match prove_tree(bytes, input) {
         Err(error) => Finding::failed(TREE, error),
         Ok(proof) => Finding::proved(

@@ -1,4 +1,4 @@
-//! Curves from CSV: x,y or x,y,z on a line.
+//! Curves from CSV: x,y or x,y,z on a line, comments from a `#` on.
 
 use crate::error::CurveError;
 use csv::{ByteRecord, ReaderBuilder, Trim};
@@ -102,8 +102,48 @@ fn is_header(record: &ByteRecord) -> bool {
     record.iter().all(is_name)
 }
 
-/// Reads polylines from CSV: x,y or x,y,z on a line, and at most one header line before. A blank
-/// line begins a new polyline. So does another value in a column `polyline` of the header. Columns
+/// A text without its comments.
+struct Plain {
+    bytes: Vec<u8>,
+    /// Numbers of the lines that were comments alone, from 1: they are no blank lines.
+    comments: Vec<u64>,
+    separator: u8,
+}
+
+/// Columns whose values have no `#` of their own.
+const NUMBERS: [&str; 4] = ["x", "y", "z", "zone"];
+
+impl Plain {
+    /// Leaves out lines that begin with a `#`, and what follows a `#` where columns hold numbers
+    /// and zones alone: a polyline may be named `#1`. The separator is that of the first line.
+    fn of(bytes: &[u8]) -> Self {
+        let begin = |line: &[u8]| line.trim_ascii_start().first().copied();
+        let mut lines = bytes.split(|&byte| byte == b'\n');
+        let first = lines.find(|line| !matches!(begin(line), None | Some(b'#')));
+        let first = first.unwrap_or_default();
+        let separator = if first.contains(&b';') { b';' } else { b',' };
+        let is_number = |field: &[u8]| {
+            let text = String::from_utf8_lossy(field.trim_ascii()).to_ascii_lowercase();
+            text.is_empty() || NUMBERS.contains(&text.as_str()) || text.parse::<f64>().is_ok()
+        };
+        let before = |line: &[u8]| line.split(|&byte| byte == b'#').next().map_or(0, <[u8]>::len);
+        let cuts = first[..before(first)].split(|&byte| byte == separator).all(is_number);
+        let (mut plain, mut comments) = (Vec::with_capacity(bytes.len() + 1), Vec::new());
+        for (line, number) in bytes.split(|&byte| byte == b'\n').zip(1..) {
+            match begin(line) {
+                Some(b'#') => comments.push(number),
+                _ => plain.extend(&line[..if cuts { before(line) } else { line.len() }]),
+            }
+            // The end of a line counts lines, so the last one has an end too.
+            plain.push(b'\n');
+        }
+        Self { bytes: plain, comments, separator }
+    }
+}
+
+/// Reads polylines from CSV: x,y or x,y,z on a line, and at most one header line before, between
+/// commas or semicolons. Lines that begin with a `#` are comments, and where no column but x, y, z
+/// and `zone` is there, so is what follows a `#`. A blank line begins a new polyline. So does another value in a column `polyline` of the header. Columns
 /// of other names are skipped. With `close` each polyline's last point is joined with its first.
 ///
 /// A column `zone` of the header makes zones of the polylines, `inclusion` or `exclusion`. Zones
@@ -114,9 +154,9 @@ fn is_header(record: &ByteRecord) -> bool {
 /// [`CurveError`] names the line.
 pub fn read_csv(bytes: &[u8], close: bool) -> Result<Vec<Polyline>, CurveError> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    // The end of a line counts lines, so the last one has an end too.
-    let bytes = [bytes, b"\n"].concat();
+    let Plain { bytes, comments, separator } = Plain::of(bytes);
     let mut reader = ReaderBuilder::new()
+        .delimiter(separator)
         .has_headers(false)
         .flexible(true)
         .trim(Trim::All)
@@ -130,7 +170,8 @@ pub fn read_csv(bytes: &[u8], close: bool) -> Result<Vec<Polyline>, CurveError> 
     while reader.read_byte_record(&mut record).unwrap_or(false) {
         // The reader skips blank lines before a record.
         let line = reader.position().line() - 1;
-        let has_blank = record.position().is_some_and(|before| before.line() < line);
+        let is_blank = |skipped: u64| comments.binary_search(&skipped).is_err();
+        let has_blank = record.position().is_some_and(|from| (from.line()..line).any(is_blank));
         begins |= has_blank || record.iter().all(<[u8]>::is_empty);
         if record.iter().all(<[u8]>::is_empty) {
             continue;
@@ -230,6 +271,24 @@ mod tests {
         assert_eq!(read("x,y,zone\n0,0,5001\n"), Err(bad));
         let none = CurveError::Zone { line: 3, text: String::new() };
         assert_eq!(read("x,y,zone\n0,0,inclusion\n1,0,\n"), Err(none));
+    }
+
+    #[test]
+    fn comments_are_no_blank_lines_and_semicolons_separate_as_in_files_of_queries() {
+        let [a, b, c, d] = [[1.0, 2.0, 0.0], [3.0, 4.0, 0.0], [5.0, 6.0, 0.0], [7.0, 8.0, 0.0]];
+        let one = Ok(vec![vec![a, b, c, d]]);
+        assert_eq!(read("# by hand\nx;y\n1;2 # first\n  # inner\n#\n3;4\r\n5;6\n7;8#"), one);
+        let two = Ok(vec![vec![a, b], vec![c, d]]);
+        assert_eq!(read("1,2\n3,4\n# next\n\n5,6\n7,8\n"), two);
+        // What follows a name's # is the name's.
+        assert_eq!(
+            read("polyline,x,y\n#0,9,9\nfence #1,1,2\nfence #1,3,4\nfence #2,5,6\nfence #2,7,8\n"),
+            two
+        );
+        assert_eq!(
+            read("1,2\n# one\n\n3,x\n"),
+            Err(CurveError::Number { line: 4, field: 2, text: "x".to_owned() })
+        );
     }
 
     #[test]

@@ -185,8 +185,8 @@ pub enum BuildError {
 }
 
 /// The remedy for a mesh that is not closed, on a line of its own, like places.
-const NO_SOLID: &str =
-    "for distances and segments, --for closest,segment and --for sweep need no closed mesh";
+const NO_SOLID: &str = "for distances and segments, --for closest,segment and --for sweep need no closed mesh; of one \
+     that deforms, --for sweep,deform";
 
 /// What to do about an error of the operating system.
 #[doc(hidden)]

@@ -5,8 +5,8 @@ use super::setting::{How, Question, Setting};
 use crate::builder::Recipe;
 use crate::distances::Distances;
 use meshsweep_core::{
-    Blob, Budget, ClosestPoint, CoherentQuery, Facing, FirstHit, Hint, QueryError, ScratchEntry,
-    Work,
+    Blob, Budget, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Hint, QueryError,
+    ScratchEntry, Work,
 };
 use std::hint::black_box;
 use std::time::Instant;
@@ -21,6 +21,8 @@ pub(super) struct Answer {
     pub lower: f64,
     /// It is no more; infinite if the structure has no upper bound.
     pub upper: f64,
+    /// Whether a segment is proved neither clear nor to meet the mesh.
+    pub is_undecided: bool,
     /// What its cost is predicted from.
     pub features: Features,
 }
@@ -141,7 +143,8 @@ pub(super) fn ask(
             let of = Of { budget, shape: Shape::of_triboxes(&triboxes), scratch };
             twice(points, &of, |[p]| {
                 let bound = triboxes.distance(p, budget, &mut stack)?;
-                Ok((f64::from(bound.lower), f64::INFINITY, bound.work))
+                let ends = [f64::from(bound.lower), f64::INFINITY];
+                Ok(Told { ends, work: bound.work, is_undecided: false })
             })
         }
     }
@@ -181,16 +184,18 @@ fn first_hits(
     }
 }
 
-fn of_closest(near: ClosestPoint) -> (f64, f64, Work) {
-    (f64::from(near.distance.lower), f64::from(near.distance.upper), near.work)
+fn of_closest(near: ClosestPoint) -> Told {
+    let ends = [near.distance.lower, near.distance.upper].map(f64::from);
+    Told { ends, work: near.work, is_undecided: false }
 }
 
 /// The free length. That of a clear segment is its length, and no hit that is not known is later.
-fn of_hit([a, b]: [[f32; 3]; 2], hit: &FirstHit) -> (f64, f64, Work) {
+fn of_hit([a, b]: [[f32; 3]; 2], hit: &FirstHit) -> Told {
     let [a, b] = [a, b].map(|end| glam::Vec3::from(end).as_dvec3());
     let length = a.distance(b);
-    let [lower, upper] = [hit.t.lower, hit.t.upper].map(|t| f64::from(t).min(1.0) * length);
-    (lower, upper, hit.work)
+    let ends = [hit.t.lower, hit.t.upper].map(|t| f64::from(t).min(1.0) * length);
+    let is_hit = hit.hit.is_some() && hit.ended == Ended::Exact;
+    Told { ends, work: hit.work, is_undecided: !hit.is_clear() && !is_hit }
 }
 
 fn plain(
@@ -201,8 +206,8 @@ fn plain(
 ) -> Result<Asked, QueryError> {
     twice(points, of, |[p]| {
         let near = structure.closest_point(p, of.budget, scratch)?;
-        let [lower, upper] = [near.distance.lower, near.distance.upper].map(f64::from);
-        Ok((lower, upper, near.work))
+        let ends = [near.distance.lower, near.distance.upper].map(f64::from);
+        Ok(Told { ends, work: near.work, is_undecided: false })
     })
 }
 
@@ -214,8 +219,15 @@ struct Of {
     scratch: usize,
 }
 
-/// The ends of an interval, and the work.
-type Found = Result<(f64, f64, Work), QueryError>;
+/// What one query told.
+struct Told {
+    /// Of the interval.
+    ends: [f64; 2],
+    work: Work,
+    is_undecided: bool,
+}
+
+type Found = Result<Told, QueryError>;
 
 /// For the answers and for the time alike.
 fn twice<const N: usize>(
@@ -233,8 +245,9 @@ fn first<const N: usize>(
     mut one: impl FnMut([[f32; 3]; N]) -> Found,
 ) -> Result<Asked, QueryError> {
     let answers = places.iter().map(|&place| {
-        let (lower, upper, work) = one(place)?;
-        Ok(Answer { lower, upper, features: of.shape.features(&place, &of.budget, &work) })
+        let Told { ends: [lower, upper], work, is_undecided } = one(place)?;
+        let features = of.shape.features(&place, &of.budget, &work);
+        Ok(Answer { lower, upper, is_undecided, features })
     });
     let answers = answers.collect::<Result<Vec<_>, QueryError>>()?;
     Ok(Asked { answers, nanoseconds: 0.0, scratch: of.scratch })

@@ -91,6 +91,8 @@ pub struct Row {
     pub found_lower: Spread,
     /// The upper end, less it. `None` without an upper end.
     pub found_upper: Option<Spread>,
+    /// Segments that are proved neither clear nor to meet the mesh. 0 of points.
+    pub undecided: usize,
     /// Of a mean query on this machine, on one thread. A box tree is searched in the order that is
     /// fastest here.
     pub nanoseconds: f64,
@@ -276,6 +278,7 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
         guaranteed: each(&|i| upper(i) - lower(i)).filter(|_| is_bounded),
         found_lower: each(&|i| (truths[i] - lower(i)).max(0.0))?,
         found_upper: each(&|i| (upper(i) - truths[i]).max(0.0)).filter(|_| is_bounded),
+        undecided: answers.iter().filter(|answer| answer.is_undecided).count(),
         nanoseconds: *nanoseconds,
         boards,
         level: built.cut_level(),

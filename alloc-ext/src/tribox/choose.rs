@@ -29,6 +29,13 @@ pub enum Planes {
     Extrema(u32),
 }
 
+impl Planes {
+    /// Seven for each direction.
+    pub const NINE: Planes = Planes::Nine(7);
+    /// These, and planes just beyond local extrema.
+    pub const EXTREMA: Planes = Planes::Extrema(7);
+}
+
 /// Choice of planes.
 #[derive(Clone, Copy)]
 pub(super) struct Choosing<'a> {

@@ -77,10 +77,6 @@ pub(super) fn level_watched(
     let triboxes = proxies(hierarchy, count);
     let errors =
         hierarchy.leaves(count).into_iter().map(|node| hierarchy.nodes[node as usize].error);
-    let faces_of = |tribox: &Tribox| {
-        let boundary = tribox.boundary().cleaned();
-        (0..FACES).filter(|&face| !boundary.face(face).is_empty()).count()
-    };
     Level {
         triboxes: triboxes.len(),
         faces: triboxes.iter().map(faces_of).sum(),
@@ -88,6 +84,12 @@ pub(super) fn level_watched(
         error: errors.fold(0.0, f64::max),
         distance: distance(&triboxes, mesh, tree, watch),
     }
+}
+
+/// Faces of a tribox, without those of no extent.
+pub(super) fn faces_of(tribox: &Tribox) -> usize {
+    let boundary = tribox.boundary().cleaned();
+    (0..FACES).filter(|&face| !boundary.face(face).is_empty()).count()
 }
 
 fn distance(triboxes: &[Tribox], mesh: &Mesh, tree: &Bvh<'_>, watch: Watch<'_>) -> Farthest {

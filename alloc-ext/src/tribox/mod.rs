@@ -8,7 +8,8 @@
 //! split               the tree: the cell of the greatest gain is split first
 //! level               unions as levels of detail: faces, volume, error, distance
 //! surface             their triangles
-//! orient              the orientation of least volume or area
+//! orient, grown       the orientation of least volume or area, and the better of two splits
+//! gain                what an option changed
 //! lattice, store      the same on a blob's grid, and the section's bytes
 //! ```
 //!
@@ -48,6 +49,8 @@ mod choose;
 mod excess;
 mod extent;
 mod extrema;
+mod gain;
+mod grown;
 mod lattice;
 mod level;
 mod orient;
@@ -64,6 +67,8 @@ mod winding;
 pub use crate::bvh::exact_blob as box_tree;
 pub use choose::{Measure, Planes};
 pub use extent::Extent;
+pub use gain::{Gain, Total};
+pub use grown::Grown;
 pub use lattice::Lattice;
 pub use level::{Level, level, proxies};
 pub use orient::Turn;

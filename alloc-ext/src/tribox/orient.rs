@@ -45,7 +45,10 @@ impl Turn {
 
     /// The place of a point, each coordinate within 2^-51 of the sum of its terms' sizes.
     fn place(&self, point: [f32; 3]) -> [f64; 3] {
-        let [x, y, z] = point.map(f64::from);
+        self.times(point.map(f64::from))
+    }
+
+    fn times(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         self.rows.map(|row| {
             let [a, b, c] = row.map(f64::from);
             a * x + b * y + c * z
@@ -63,6 +66,19 @@ impl Turn {
             off(0) + off(1) + off(2)
         };
         sum(0).max(sum(1)).max(sum(2)) + DOUBT
+    }
+
+    /// The place that the turn takes to this one, within 2^-40 of the largest coordinate.
+    pub(super) fn back(&self, place: [f32; 3]) -> [f64; 3] {
+        let transposed = |p: [f64; 3]| {
+            let [a, b, c] = self.rows.map(|row| row.map(f64::from));
+            [0, 1, 2].map(|k| a[k] * p[0] + b[k] * p[1] + c[k] * p[2])
+        };
+        // The transposed matrix is the inverse up to the skew, and one step squares that.
+        let near = transposed(place.map(f64::from));
+        let there = self.times(near);
+        let rest = transposed([0, 1, 2].map(|k| f64::from(place[k]) - there[k]));
+        [0, 1, 2].map(|k| near[k] + rest[k])
     }
 
     /// The mesh in the triboxes' frame, its vertices rounded to f32, and how far a vertex is off at

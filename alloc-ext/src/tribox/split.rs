@@ -21,9 +21,6 @@ use std::collections::BinaryHeap;
 /// Most splits above a cell; the rounding bound of [`polygons`](super::polygons) counts on it.
 pub(super) const DEPTH: u32 = 64;
 
-/// Planes for each direction.
-pub(super) const PLANES: u32 = 7;
-
 /// Part of a tribox's measure by which a gain may fall short of its prediction: the effect of
 /// rounding to f32 on thin triboxes.
 const DOUBT: f64 = 1e-3;
@@ -63,7 +60,7 @@ impl Default for SplitOptions {
         SplitOptions {
             leaves: 64,
             measure: None,
-            planes: Planes::Nine(PLANES),
+            planes: Planes::NINE,
             least_gain: 1e-4,
             error: None,
             foresight: 0.05,
@@ -77,6 +74,10 @@ impl SplitOptions {
     setters! {
         /// Sets the number of [leaves](Self::leaves).
         with_leaves: usize => leaves,
+        /// Sets the [planes](Self::planes) that are tried.
+        with_planes: Planes => planes,
+        /// Sets the [error](Self::error) that ends splitting.
+        with_error: Option<f64> => error,
         /// Sets how far planes may move to [simplify](Self::simplify) proxies.
         with_simplify: f32 => simplify,
     }

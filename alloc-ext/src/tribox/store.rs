@@ -1,12 +1,12 @@
 //! Tribox hierarchies as a section of a blob.
 
 use super::choose::{Measure, Planes};
-use super::extent::Extent;
+use super::gain::Gain;
+use super::grown::{Grid, Grown, Splitting};
 use super::lattice::Lattice;
-use super::level::{Level, level_watched, proxies};
-use super::orient::{Turn, orientation};
-use super::split::{Hierarchy, Node, PLANES, SplitOptions};
-use crate::bvh::exact_blob_watched;
+use super::level::{Level, level_watched};
+use super::orient::Turn;
+use super::split::{Hierarchy, Node, SplitOptions};
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
@@ -24,7 +24,6 @@ use meshsweep_core::internal::tribox::format::layout::{
     TRIBOXES_BYTES, TRIBOXES_SOLID, TRIBOXES_TURNED,
 };
 use meshsweep_core::{Blob, Bvh, Tribox};
-use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 /// How many triboxes to make, and in which frame.
@@ -60,6 +59,17 @@ impl TriboxOptions {
         /// Sets whether planes just beyond [extrema](Self::extrema) are tried.
         with_extrema: bool => extrema,
     }
+
+    /// What splits a mesh.
+    fn split(&self) -> SplitOptions {
+        let planes = if self.extrema { Planes::EXTREMA } else { Planes::NINE };
+        SplitOptions {
+            planes,
+            leaves: self.count.clamp(1, MAX_TRIBOXES) as usize,
+            error: self.error,
+            ..SplitOptions::default()
+        }
+    }
 }
 
 /// Levels and time of a hierarchy.
@@ -70,6 +80,10 @@ pub struct TriboxReport {
     pub levels: Vec<Level>,
     /// The largest error of a tribox of the finest level as stored, input units. `None` of none.
     pub reached: Option<f64>,
+    /// Whether the triboxes hold a solid, not its surface only.
+    pub is_solid: bool,
+    /// What [`orient`](TriboxOptions::orient) gained. `None` if it was not asked for.
+    pub oriented: Option<Gain>,
     /// Time of the whole build.
     pub time: Duration,
 }
@@ -101,12 +115,19 @@ pub fn build(
     if whole.is_empty() {
         let tables = tables(Aabb { min: Vec3::ZERO, max: Vec3::ZERO }, Vec::new());
         let (levels, time) = (Vec::new(), started.elapsed());
-        return Ok((tables, TriboxReport { levels, reached: None, time }));
+        return Ok((
+            tables,
+            TriboxReport { levels, reached: None, is_solid: false, oriented: None, time },
+        ));
     }
-    let Grown { mesh, bytes, lattice, hierarchy, turn } = match options.orient {
-        None => Grown::new(input, options, None, watch.part(0.0, 0.8))?,
-        Some(measure) => Grown::least(input, options, measure, watch.part(0.0, 0.8))?,
+    let splitting =
+        Splitting { mesh: input.mesh, options: options.split(), grid: Grid::Blob(input.error()) };
+    let (grown, oriented) = splitting.oriented(options.orient, watch.part(0.0, 0.8))?;
+    let lattice = match grown.lattice {
+        Some(lattice) => lattice,
+        None => Lattice::in_frame(&grown.mesh, scale, input.error())?,
     };
+    let Grown { mesh, bytes, hierarchy, turn, .. } = grown;
     let tree = Bvh::open(&bytes).map_err(BuildError::Reopen)?;
     let counts = (0..).map(|k| 1usize << k).take_while(|&count| count < hierarchy.order.len() + 1);
     let counts = counts.chain([hierarchy.order.len() + 1]);
@@ -132,88 +153,8 @@ pub fn build(
     let bounds = Aabb { min: corner(&whole.low), max: corner(&whole.high) };
     let tables = tables(bounds, section);
     let reached = levels.last().map(|level| lattice.claimed(level.error));
-    Ok((tables, TriboxReport { levels, reached, time: started.elapsed() }))
-}
-
-/// A mesh as it was split.
-struct Grown<'a> {
-    mesh: Cow<'a, Mesh>,
-    /// Its box tree.
-    bytes: Vec<u8>,
-    lattice: Lattice,
-    hierarchy: Hierarchy,
-    turn: Option<Turn>,
-}
-
-impl<'a> Grown<'a> {
-    /// Splits a mesh, which may be turned first.
-    fn new(
-        input: Input<'a>,
-        options: &TriboxOptions,
-        turn: Option<Turn>,
-        watch: Watch<'_>,
-    ) -> Result<Self, BuildError> {
-        let scale = scale_exponent(input.mesh);
-        let (mesh, lattice) = match turn {
-            None => {
-                let lattice = Lattice::in_frame(input.mesh, scale, input.error())?;
-                (Cow::Borrowed(input.mesh), lattice)
-            }
-            Some(turn) => {
-                let (mesh, off) = turn.mesh(input.mesh);
-                let stretch = 1.0 + 2.0 * turn.skew();
-                let padding = input.error() * stretch + off;
-                let lattice = Lattice::in_frame(&mesh, scale, padding)?;
-                (Cow::Owned(mesh), Lattice { stretch, ..lattice })
-            }
-        };
-        let bytes = exact_blob_watched(&mesh, watch.part(0.0, 0.125))?;
-        let tree = Bvh::open(&bytes).map_err(BuildError::Reopen)?;
-        let planes = match options.extrema {
-            true => Planes::Extrema(PLANES),
-            false => Planes::Nine(PLANES),
-        };
-        let split = SplitOptions {
-            planes,
-            leaves: options.count.clamp(1, MAX_TRIBOXES) as usize,
-            error: options.error,
-            lattice: Some(lattice),
-            ..SplitOptions::default()
-        };
-        let hierarchy = Hierarchy::watched(&mesh, &tree, &split, watch.part(0.125, 1.0))?;
-        Ok(Self { mesh, bytes, lattice, hierarchy, turn })
-    }
-
-    /// The largest error of the finest level, as it is stored.
-    fn largest_error(&self) -> f64 {
-        let leaves = self.hierarchy.nodes.iter().filter(|node| node.split.is_none());
-        leaves.map(|leaf| self.lattice.claimed(leaf.error)).fold(0.0, f64::max)
-    }
-
-    /// Splits a mesh in its own frame and in the orientation of its tribox's least measure, and
-    /// takes the one that reaches the asked error with the fewer triboxes, or that has less in all.
-    /// Where a turned mesh has coordinates beyond the domain, its own frame stays.
-    fn least(
-        input: Input<'a>,
-        options: &TriboxOptions,
-        measure: Measure,
-        watch: Watch<'_>,
-    ) -> Result<Self, BuildError> {
-        let own = Self::new(input, options, None, watch.part(0.0, 0.5))?;
-        let Some(turn) = orientation(input.mesh, measure) else { return Ok(own) };
-        let turned = match Self::new(input, options, Some(turn), watch.part(0.5, 1.0)) {
-            Ok(turned) => turned,
-            Err(BuildError::Cancelled) => return Err(BuildError::Cancelled),
-            Err(_) => return Ok(own),
-        };
-        let cost = |grown: &Self| {
-            let triboxes = proxies(&grown.hierarchy, usize::MAX);
-            let sum: f64 = triboxes.iter().map(|tribox| measure.of(Extent::of(tribox))).sum();
-            let misses = options.error.is_some_and(|error| grown.largest_error() > error);
-            (misses, if options.error.is_some() { triboxes.len() } else { 0 }, sum)
-        };
-        Ok(if cost(&turned) < cost(&own) { turned } else { own })
-    }
+    let (is_solid, time) = (hierarchy.is_solid, started.elapsed());
+    Ok((tables, TriboxReport { levels, reached, is_solid, oriented, time }))
 }
 
 /// Volume that a closed mesh bounds, cubed input units.

@@ -128,6 +128,12 @@ fn free_lengths_of_segments_are_those_of_an_independent_crossing() {
     }
     assert!((worst(row, "guaranteed").unwrap() - width).abs() <= 1e-9 * width, "{row}: {width}");
     assert!((worst(row, "found_lower").unwrap() - low).abs() < 1e-6, "{row}: {low}");
+    let answers = ok(["segment", arg(&blob), arg(&file)]);
+    let undecided = answers.lines().filter(|line| line.starts_with("undecided,")).count();
+    assert_eq!(row["undecided"], undecided);
+    let short = |row: &&Value| row["dials"].as_str().is_some_and(|dials| dials.contains(" 4"));
+    let short = rows(&trade).iter().find(short).expect("one of four steps");
+    assert!(short["undecided"].as_u64().unwrap() > 0, "{short}");
     for kind in ["near", "far", "path"] {
         let trade = measured(&mesh, &["--for", "segment", "--at", kind, "--points", "30"]);
         assert_eq!((&trade["points"], rows(&trade).is_empty()), (&30.into(), false), "{kind}");
@@ -146,6 +152,9 @@ fn limits_of_segments_choose_what_answers_segments() {
     let limits = ["--flash", "8K", "--rate", "1kHz", "--cpu", "m4f:168MHz"];
     let text = ok([&build[..], &limits[..]].concat());
     assert!(text.contains(", by first_hit") && text.contains(" segments from near"), "{text}");
+    assert!(text.contains("  undecided: 0 of these segments\n"), "{text}");
+    let text = ok(["trade", arg(&mesh), "--for", "segment", "--points", "9"]);
+    assert!(text.contains(" median undecided ") && text.contains("undecided: segments"), "{text}");
     let hit = ok(["segment", arg(&blob), "0.25,0.5,2,0.25,0.5,0.5"]);
     assert!(hit.lines().count() == 2, "{hit}");
 }

@@ -139,6 +139,89 @@ fn splitting_ends_where_it_saves_nothing_and_says_so() {
     );
 }
 
+/// What an option gained: number of triboxes, faces, area and void before and after.
+fn gained(report: &Value, option: &str) -> (bool, [[f64; 4]; 2]) {
+    let gains = report["gains"].as_array().expect("there are gains");
+    let gain = gains.iter().find(|gain| gain["option"] == option).expect("the option's");
+    let keys = ["triboxes", "faces", "area", "void_ratio"];
+    let total = |of: &str| keys.map(|key| gain[of][key].as_f64().expect("a number"));
+    (gain["is_gain"].as_bool().unwrap(), ["before", "after"].map(total))
+}
+
+/// Faces and void of the finest level.
+fn finest(report: &Value) -> [f64; 2] {
+    ["faces", "void_ratio"].map(|key| *numbers(report, key).last().unwrap())
+}
+
+#[test]
+fn turned_triboxes_enclose_the_mesh_where_it_lies_and_the_report_says_what_turning_gained() {
+    let directory = scratch("tribox_turned");
+    let (mesh, out) = (crate::triboxes::askew(&directory), directory.join("proxy.ply"));
+    let plain = json(&mesh, &["--levels", "1"]);
+    let turned = json(&mesh, &["--levels", "1", "--orient", "volume", "-o", arg(&out)]);
+    assert!(plain["orientation"].is_null() && plain["gains"].as_array().unwrap().is_empty());
+    assert_eq!(turned["orientation"].as_array().map(Vec::len), Some(3));
+    let (is_gain, [before, after]) = gained(&turned, "--orient volume");
+    assert!(is_gain && after[3] < 0.01 && before[3] > 0.1, "{before:?} {after:?}");
+    assert_eq!([before[1], before[3]], finest(&plain));
+    assert_eq!([after[1], after[3]], finest(&turned));
+    let written = triangles(&out);
+    // Each corner of the mesh is inside, not on the surface: there the number is a half.
+    for p in triangles(&mesh).into_iter().flatten() {
+        assert!((winding(p, &written) - 1.0).abs() < 1e-6, "{p:?}: {}", winding(p, &written));
+    }
+    assert!((volume(&written) / 8.0 - 1.0).abs() < 0.01);
+    let bounds = &turned["levels"][0]["distance"];
+    let surface = triangles(&mesh);
+    let sampled = written.iter().flatten().map(|&p| distance(p, &surface)).fold(0.0, f64::max);
+    assert!(sampled <= bounds["upper"].as_f64().unwrap(), "{sampled} {bounds}");
+    assert!(bounds["lower"].as_f64().unwrap() <= bounds["upper"].as_f64().unwrap());
+    let text = ok(["tribox", arg(&mesh), "--levels", "1", "--orient", "volume"]);
+    assert!(text.contains("gained by --orient volume: void "), "{text}");
+    assert!(text.contains("turned by the rotation"), "{text}");
+}
+
+#[test]
+fn what_extrema_gain_is_the_difference_of_two_runs() {
+    let mesh = fixture("groove.obj");
+    let [plain, tried] =
+        [&[][..], &["--extrema"]].map(|more| json(&mesh, &[&["--levels", "4"], more].concat()));
+    let (is_gain, [before, after]) = gained(&tried, "--extrema");
+    assert!(is_gain && after[3] < before[3], "{before:?} {after:?}");
+    assert_eq!([before[1], before[3]], finest(&plain));
+    assert_eq!([after[1], after[3]], finest(&tried));
+    let both = json(&mesh, &["--levels", "4", "--extrema", "--orient", "area"]);
+    assert_eq!(gained(&both, "--extrema"), (is_gain, [before, after]));
+}
+
+#[test]
+fn an_option_that_gains_nothing_says_so() {
+    let mesh = scratch("tribox_no_gain").join("cube.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n\
+                f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    fs::write(&mesh, text).unwrap();
+    let text = ok(["tribox", arg(&mesh), "--orient", "volume", "--extrema"]);
+    assert!(text.contains("nothing gained by --extrema: void 0.000 % before, 0.000 %"), "{text}");
+    assert!(text.contains("nothing gained by --orient volume: no turn was found"), "{text}");
+    assert!(!text.contains("turned by the rotation"), "{text}");
+    let report = json(&mesh, &["--orient", "volume"]);
+    assert_eq!(report["gains"][0]["is_gain"], false);
+    assert!(report["gains"][0]["after"].is_null() && report["orientation"].is_null());
+}
+
+#[test]
+fn triboxes_are_split_until_the_error_is_reached_or_the_report_says_that_it_is_not() {
+    let mesh = fixture("torus.ply");
+    let report = json(&mesh, &["--tribox-error", "0.8"]);
+    let errors = numbers(&report, "hull_error");
+    let (last, coarser) = errors.split_last().unwrap();
+    assert!(*last <= 0.8 && coarser.iter().all(|&error| error > 0.8), "{errors:?}");
+    let reached = "each tribox is within 0.8 of the convex hull of what it holds";
+    assert!(ok(["tribox", arg(&mesh), "--tribox-error", "0.8"]).contains(reached));
+    let text = ok(["tribox", arg(&mesh), "--tribox-error", "0.01", "--levels", "2"]);
+    assert!(text.contains("more than 0.01: more --levels may come nearer"), "{text}");
+}
+
 #[test]
 fn answers_do_not_change() {
     let directory = scratch("tribox_same");

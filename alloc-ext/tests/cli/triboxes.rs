@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A block of 4 by 2 by 1 that lies askew, as OBJ: all its numbers are exact decimals.
-fn askew(directory: &Path) -> PathBuf {
+pub fn askew(directory: &Path) -> PathBuf {
     let rotation = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
     let corner =
         |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 1 { [4.0, 2.0, 1.0][k] } else { 0.0 });
@@ -36,6 +36,7 @@ fn built(directory: &Path) -> (PathBuf, Vec<Triangle>) {
     let options = ["--for", "triboxes", "--orient", "volume", "--tribox-error", "0.1"];
     let text = ok([&["build", arg(&mesh), "-o", arg(&blob)], options.as_slice()].concat());
     assert!(text.contains("turned by the rotation"), "{text}");
+    assert!(text.contains("  gained by --orient volume: void "), "{text}");
     (blob, triangles(&mesh))
 }
 

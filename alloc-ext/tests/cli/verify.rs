@@ -1,7 +1,7 @@
 //! `meshsweep verify` proves what `build` wrote, and nothing that was changed afterwards.
 
 use crate::support::{arg, blob, coarse_torus, fixture, ok, refused, run, scratch};
-use meshsweep::check::{Against, Outcome, crc32, entries, verify, word};
+use meshsweep::check::{Against, Outcome, crc32, entries, verify, verify_file, word};
 use meshsweep::mesh;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -184,6 +184,12 @@ fn hull_hierarchies_are_proved_and_changed_ones_are_not() {
         let levels = word(b, 80).unwrap() as usize;
         (1..levels).for_each(|k| put(b, start(b, LEVELS) + 20 * k - 8, f32::INFINITY.to_bits()));
     });
+    case.fails("hull hierarchy: split 0: its error is", |b| {
+        let record = (end(b, SPLITS) - start(b, SPLITS)) / word(b, 64).unwrap() as usize;
+        let error = start(b, SPLITS) + record - 1;
+        assert!(b[error] > 1);
+        b[error] -= 1;
+    });
     // A triangle of the surface: the last split's last one.
     case.fails("is its own part and has radius", |b| {
         let radii = end(b, RADII);
@@ -282,12 +288,85 @@ fn triboxes_are_proved_and_changed_ones_are_not() {
     let case = Case::new(&directory, fixture("torus.msw"), &[fixture("torus.ply")]);
     // The second level's distance.
     case.fails("triboxes: level 1: ", |b| scale(b, start(b, TRIBOXES) + 32 + 16 + 4, 0.5));
+    case.fails("triboxes: node 0 reaches", |b| scale(b, start(b, TRIBOXES) + 32 + 8, 0.9));
+    case.fails("triboxes: level 2: its void", |b| scale(b, start(b, TRIBOXES) + 64 + 12, 0.99));
     // An open mesh holds no inside, a hollow one does: another claim of the same triboxes.
     let path = directory.join("open.msw");
     let open = fixture("evil/open_box.stl");
     ok(["build", arg(&open), "-o", arg(&path), "--for", "triboxes", "--triboxes", "8"]);
     let case = Case::new(&directory, path, &[open]);
     case.fails("the inside of a mesh that is not closed", |b| b[start(b, TRIBOXES)] |= 1);
+}
+
+#[test]
+fn a_shrunk_hull_error_is_caught_at_whichever_node_it_is() {
+    let whole = fs::read(fixture("torus.msw")).unwrap();
+    let (mesh, _) = mesh::repair(mesh::read(&fixture("torus.ply")).unwrap()).unwrap();
+    let section = start(&whole, TRIBOXES);
+    let [nodes, levels] = [20, 24].map(|at| word(&whole, section + at).unwrap() as usize);
+    let first = section + 32 + 16 * levels + (nodes - 1);
+    assert!(nodes > 15 && first + 40 * nodes <= end(&whole, TRIBOXES));
+    for node in 0..nodes {
+        let mut bytes = whole.clone();
+        // The upper half of an f32: 13 steps are from 5 to 10 %.
+        let at = first + 40 * node + 38;
+        let code = u16::from_le_bytes([bytes[at], bytes[at + 1]]);
+        assert!(code > 13);
+        bytes[at..at + 2].copy_from_slice(&(code - 13).to_le_bytes());
+        mend(&mut bytes);
+        let findings = verify(&bytes, Against::Mesh(mesh.as_input(), &[]));
+        let failed: Vec<_> =
+            findings.iter().filter(|found| found.outcome == Outcome::Failed).collect();
+        let [failed] = failed[..] else { panic!("node {node}: {findings:?}") };
+        assert!(failed.words.starts_with(&format!("node {node} reaches ")), "{failed:?}");
+    }
+}
+
+#[test]
+fn the_files_own_triangles_prove_a_surface_error_and_catch_a_shrunk_one() {
+    let directory = scratch("verify_surface_error");
+    let mesh = directory.join("decimal.obj");
+    let lines = fs::read_to_string(coarse_torus(&directory)).unwrap();
+    // No coordinate is an f32.
+    let line = |line: &str| match line.strip_prefix("v ") {
+        Some(place) => {
+            let place = place.split(' ').map(|x| 1.01 * x.parse::<f64>().unwrap());
+            format!("v {}\n", place.map(|x| x.to_string()).collect::<Vec<_>>().join(" "))
+        }
+        None => format!("{line}\n"),
+    };
+    fs::write(&mesh, lines.lines().map(line).collect::<String>()).unwrap();
+    let raw = mesh::read(&mesh).unwrap();
+    let outcomes = |bytes: &[u8]| {
+        let findings = verify_file(bytes, &raw);
+        findings.iter().map(|of| (of.structure, of.outcome)).collect::<Vec<_>>()
+    };
+    for bits in ["16", "24", "32"] {
+        let cases =
+            [("closest", "box tree"), ("hull", "hull hierarchy"), ("sweep", "hull hierarchy")];
+        for (serves, structure) in cases {
+            let path = directory.join("torus.msw");
+            ok(["build", arg(&mesh), "-o", arg(&path), "--for", serves, "--vertex-bits", bits]);
+            let whole = fs::read(&path).unwrap();
+            assert_eq!(outcomes(&whole), [(structure, Outcome::Proved)], "{bits} {serves}");
+            let mut bytes = whole;
+            let error = if serves == "closest" { start(&bytes, TREE) + 40 } else { ERROR };
+            scale(&mut bytes, error, 0.25);
+            mend(&mut bytes);
+            assert_eq!(outcomes(&bytes), [(structure, Outcome::Failed)], "{bits} {serves}");
+        }
+    }
+    // What reading moved is not in a mesh that is said to be the file's to the bit.
+    let path = directory.join("torus.msw");
+    ok(["build", arg(&mesh), "-o", arg(&path), "--for", "hull", "--vertex-bits", "32"]);
+    let mut bytes = fs::read(&path).unwrap();
+    scale(&mut bytes, ERROR, 0.25);
+    mend(&mut bytes);
+    let (mut repaired, _) = mesh::repair(raw.clone()).unwrap();
+    repaired.rounding = 0.0;
+    let findings = verify(&bytes, Against::Mesh(repaired.as_input(), &[]));
+    assert!(findings.iter().all(|of| of.outcome == Outcome::Proved), "{findings:?}");
+    assert_eq!(outcomes(&bytes), [("hull hierarchy", Outcome::Failed)]);
 }
 
 #[test]

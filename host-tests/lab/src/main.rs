@@ -1,12 +1,13 @@
 //! `cargo xtask measure`, `race` and `rival`: this file only dispatches.
 //!
 //! ```text
-//! measuring ─ measure, hulls_on_board
+//! measuring ─ measure, hulls_on_board, fans_on_board
 //! robot ───── measure::robot, in the emulator
 //! racing ──── race
 //! rival ───── images of other engines, in the emulator
 //! ```
 
+mod fans_on_board;
 mod hulls_on_board;
 mod measuring;
 mod racing;
@@ -21,7 +22,7 @@ use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
 cargo xtask measure [--tree | --triboxes | --deform | --overlap
-                    | --tight [--firmware] | --paper TABLE] [MESH...]
+                    | --tight [--firmware] | --paper TABLE [--firmware]] [MESH...]
 cargo xtask measure --margins TRIALS
           work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
           --tree      only the box tree's
@@ -29,7 +30,8 @@ cargo xtask measure --margins TRIALS
           --deform    the hull hierarchy under motions
           --overlap   whether the mesh meets itself, moved
           --tight     tight hulls, each proved, on a Cortex-M4F with --firmware
-          --paper     a table of the papers; alone: the list of tables
+          --paper     a table of the papers; alone: the list of tables; 003.3 on a Cortex-M4F and
+                      a Cortex-M0 with --firmware
           --margins   how much of each margin for rounding is used, in so many trials, of no mesh
 cargo xtask measure --robot DIR [--every COUNT] [--cpu m7] [--json | --oracle PAIRS]
           an arm that guards itself at 1 kHz, on a Cortex-M4F and here: instructions a tick and a

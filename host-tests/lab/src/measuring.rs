@@ -12,7 +12,7 @@ use meshsweep_xtask::steps::Steps;
 use meshsweep_xtask::tools;
 use meshsweep_xtask::workspace;
 
-use crate::hulls_on_board;
+use crate::{fans_on_board, hulls_on_board};
 
 /// What to measure.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub struct Options {
     part: Option<Part>,
     /// Trials of each margin, of no mesh.
     margins: Option<usize>,
-    /// Tight hulls on a board.
+    /// Tight hulls or fans on a board.
     is_on_board: bool,
 }
 
@@ -39,7 +39,7 @@ enum Part {
 
 impl Options {
     /// `[--tree | --triboxes | --deform | --overlap | --tight [--firmware] |
-    /// --paper TABLE | --margins TRIALS] [MESH…]`; `None` if that is not what the words are.
+    /// --paper TABLE [--firmware] | --margins TRIALS] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
@@ -72,8 +72,14 @@ impl Options {
                 return None;
             }
         }
-        (!options.is_on_board || options.part == Some(Part::Tight)).then_some(options)
+        let of_boards = [Some(Part::Tight), fans().map(Part::Paper)];
+        (!options.is_on_board || of_boards.contains(&options.part)).then_some(options)
     }
+}
+
+/// The table of what fans store, which boards tell too.
+fn fans() -> Option<usize> {
+    paper::ALL.iter().position(|table| table.name == "003.3")
 }
 
 /// The meshes, or two fixtures if there are none.
@@ -84,8 +90,8 @@ pub fn or_fixtures(meshes: Vec<PathBuf>) -> Vec<PathBuf> {
     ["bracket.stl", "torus.ply"].map(|name| workspace::root().join("fixtures").join(name)).to_vec()
 }
 
-/// Measures each mesh, the fixtures if none is named; tight hulls on a board if the firmware is
-/// asked for.
+/// Measures each mesh, the fixtures if none is named; tight hulls and fans on a board if the
+/// firmware is asked for.
 pub fn run(steps: &mut Steps, options: Options) {
     let Options { meshes, part, margins, is_on_board } = options;
     if let Some(trials) = margins {
@@ -99,7 +105,13 @@ pub fn run(steps: &mut Steps, options: Options) {
                 Some(Part::Tree) => measure_tree(mesh)?,
                 Some(Part::Overlap) => measure_overlap(mesh)?,
                 Some(Part::Triboxes) => measure_triboxes(mesh)?,
-                Some(Part::Paper(table)) => paper::measure(&paper::ALL[table], mesh)?,
+                Some(Part::Paper(table)) => {
+                    let mut tables = paper::measure(&paper::ALL[table], mesh)?;
+                    if let Some(tools) = &tools {
+                        tables.push(fans_on_board::table(tools, mesh)?);
+                    }
+                    tables
+                }
                 Some(Part::Deform) => measure_deform(mesh)?,
                 Some(Part::Tight) => match &tools {
                     Some(tools) => vec![hulls_on_board::table(tools, mesh)?],
@@ -135,6 +147,7 @@ mod tests {
             &["--firmware"],
             &["--overlap", "--overlap"],
             &["--firmware", "--tree"],
+            &["--firmware", "--paper", "003.1"],
             &["--paper"],
             &["--paper", "000.9"],
             &["--paper", "000.1", "--tree"],

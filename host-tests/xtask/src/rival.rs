@@ -1,4 +1,4 @@
-//! The images of `cargo xtask rival`: how they are built, and that they build.
+//! The images of `cargo xtask rival` and of triangle fans: how they are built, and that they build.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -14,10 +14,23 @@ pub const BOARD: Board = BOARDS[0];
 /// `cargo SUBCOMMAND` for these images.
 #[must_use]
 pub fn cargo(cross: &Cross, subcommand: &str) -> Command {
-    let mut command = cross.cargo(subcommand, &[BOARD.target]);
+    of_lab(cross, "rival", &BOARD, subcommand)
+}
+
+/// `cargo SUBCOMMAND` for the image that asks triangle fans on a board, and where `cargo build
+/// --release` puts it.
+#[must_use]
+pub fn fans(cross: &Cross, board: &Board, subcommand: &str) -> (Command, PathBuf) {
+    let image = target(cross, "fan").join(board.target).join("release/meshsweep-fan-firmware");
+    (of_lab(cross, "fan", board, subcommand), image)
+}
+
+/// `cargo SUBCOMMAND` for the images of a folder of the laboratory.
+fn of_lab(cross: &Cross, name: &str, board: &Board, subcommand: &str) -> Command {
+    let mut command = cross.cargo(subcommand, &[board.target]);
     command
-        .current_dir(workspace::root().join("host-tests/lab/rival-firmware"))
-        .env("CARGO_TARGET_DIR", folder(cross))
+        .current_dir(workspace::root().join(format!("host-tests/lab/{name}-firmware")))
+        .env("CARGO_TARGET_DIR", target(cross, name))
         .arg("--quiet");
     if matches!(cross, Cross::Debian { .. }) {
         // The later list counts: unlike our own images these allocate.
@@ -29,13 +42,18 @@ pub fn cargo(cross: &Cross, subcommand: &str) -> Command {
 /// Apart from the firmware's: both build the same crates with other features.
 #[must_use]
 pub fn folder(cross: &Cross) -> PathBuf {
-    workspace::target().join(format!("rival-{}", cross.folder()))
+    target(cross, "rival")
 }
 
-/// Builds the images of all engines without optimisation, for they are not run.
+fn target(cross: &Cross, name: &str) -> PathBuf {
+    workspace::target().join(format!("{name}-{}", cross.folder()))
+}
+
+/// Builds the images of all engines, and that of fans, without optimisation, for they are not run.
 ///
 /// # Errors
 /// The compiler's, or the linker's.
 pub fn builds(tools: &Tools) -> Result<(), String> {
-    process::capture(cargo(&tools.cross, "build").arg("--bins")).map(drop)
+    process::capture(cargo(&tools.cross, "build").arg("--bins"))?;
+    process::capture(&mut fans(&tools.cross, &BOARD, "build").0).map(drop)
 }

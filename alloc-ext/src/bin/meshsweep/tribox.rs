@@ -6,12 +6,12 @@ use crate::failure::Failure;
 use crate::mesh_file;
 use crate::mesh_report::{fields, write_rounding};
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
+use meshsweep::BuildError;
 use meshsweep::counted::Counted;
 use meshsweep::load::Loaded;
-use meshsweep::mesh::{Mesh, write_ply};
-use meshsweep::number::{About, AtLeast, AtMost, Percent};
-use meshsweep::tribox::{Hierarchy, Level, box_tree, level, proxies, surface, volume};
-use meshsweep_core::Bvh;
+use meshsweep::mesh::write_ply;
+use meshsweep::number::{About, AtLeast, AtMost, Percent, Short};
+use meshsweep::tribox::{Gain, Grown, Level, Total, Turn, volume};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::Path;
@@ -28,25 +28,23 @@ pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
     }
     let loaded = mesh_file::load(&args.mesh, &args.read)?;
     let started = Instant::now();
-    let bytes = box_tree(&loaded.mesh).map_err(|error| Failure::build(&mesh, error))?;
-    let tree = Bvh::open(&bytes).map_err(|error| Failure::open(&mesh, error))?;
-    let hierarchy = Hierarchy::new(&loaded.mesh, &tree, &args.options())
-        .map_err(|error| Failure::build(&mesh, error))?;
+    let (grown, gains) = split(args, &loaded).map_err(|error| Failure::build(&mesh, error))?;
     let split_time = started.elapsed();
     let started = Instant::now();
-    let levels = levels(args, &loaded.mesh, &tree, &hierarchy);
+    let levels = levels(args, &grown).map_err(|error| Failure::build(&mesh, error))?;
     let report = Report {
         args,
         mesh: &mesh,
         loaded: &loaded,
-        solid: hierarchy.is_solid.then(|| volume(&loaded.mesh)),
-        hierarchy: &hierarchy,
+        solid: grown.hierarchy.is_solid.then(|| volume(&loaded.mesh)),
+        grown: &grown,
+        gains: &gains,
         levels: &levels,
         split_time,
         measure_time: started.elapsed(),
     };
     if let Some(output) = &args.output {
-        let mesh = surface(&proxies(&hierarchy, usize::MAX));
+        let mesh = grown.surface();
         Output::file(output)?.finish(|out| write_ply(&mesh, out))?;
     }
     Output::stdout().finish(|out| {
@@ -59,17 +57,38 @@ pub fn run(args: &TriboxArgs) -> Result<(), Failure> {
     })
 }
 
+/// The mesh as it is split, and what each option gained, by the option as it was typed.
+fn split<'a>(
+    args: &TriboxArgs,
+    loaded: &'a Loaded,
+) -> Result<(Grown<'a>, Vec<(String, Gain)>), BuildError> {
+    let (grown, oriented) = Grown::new(&loaded.mesh, &args.options(), args.split.orient)?;
+    let mut gains = Vec::new();
+    if args.split.extrema {
+        let (plain, _) = Grown::new(&loaded.mesh, &args.plain(), None)?;
+        let before = Total::of(&plain.hierarchy);
+        let after = oriented.map_or_else(|| Total::of(&grown.hierarchy), |gain| gain.before);
+        let is_by_error = args.split.tribox_error.is_some();
+        let gain = Gain::of(before, after, plain.hierarchy.measure, is_by_error);
+        gains.push(("--extrema".to_owned(), gain));
+    }
+    if let (Some(measure), Some(gain)) = (args.split.orient, oriented) {
+        gains.push((format!("--orient {}", measure.name()), gain));
+    }
+    Ok((grown, gains))
+}
+
 /// Levels of 1, 2, 4, … triboxes, until there are no more.
-fn levels(args: &TriboxArgs, mesh: &Mesh, tree: &Bvh<'_>, hierarchy: &Hierarchy) -> Vec<Level> {
+fn levels(args: &TriboxArgs, grown: &Grown<'_>) -> Result<Vec<Level>, BuildError> {
     let mut levels: Vec<Level> = Vec::new();
-    for number in 0..args.levels {
-        let level = level(hierarchy, 1 << number, mesh, tree);
+    for number in 0..args.levels() {
+        let level = grown.level(1 << number)?;
         if levels.last().is_some_and(|last| last.triboxes == level.triboxes) {
             break;
         }
         levels.push(level);
     }
-    levels
+    Ok(levels)
 }
 
 struct Report<'a> {
@@ -78,7 +97,9 @@ struct Report<'a> {
     loaded: &'a Loaded,
     /// Volume of the mesh, if it bounds a solid.
     solid: Option<f64>,
-    hierarchy: &'a Hierarchy,
+    grown: &'a Grown<'a>,
+    /// What each option gained.
+    gains: &'a [(String, Gain)],
     levels: &'a [Level],
     split_time: Duration,
     measure_time: Duration,
@@ -100,11 +121,26 @@ impl Report<'_> {
     }
 
     fn measure(&self) -> &'static str {
-        self.hierarchy.measure.name()
+        self.grown.hierarchy.measure.name()
     }
 
     fn is_exhausted(&self) -> bool {
-        self.levels.last().is_some_and(|level| level.triboxes < 1 << (self.args.levels - 1))
+        self.levels.last().is_some_and(|level| level.triboxes < 1 << (self.args.levels() - 1))
+    }
+
+    /// What --tribox-error reached.
+    fn reached(&self) -> Option<String> {
+        let wanted = self.args.split.tribox_error?;
+        let reached = self.grown.largest_error();
+        Some(if reached <= wanted {
+            format!("each tribox is within {wanted} of the convex hull of what it holds")
+        } else {
+            format!(
+                "a tribox is up to {} from the convex hull of what it holds, more than {wanted}: \
+                 more --levels may come nearer, up to the rounding of planes",
+                AtMost(reached)
+            )
+        })
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -143,7 +179,16 @@ impl Report<'_> {
                 AtMost(level.distance.upper)
             )?;
         }
-        if self.is_exhausted() {
+        if let Some(Turn { rows }) = self.grown.turn {
+            let rows = rows.map(|row| row.map(|x| Short(x).to_string()).join(" "));
+            writeln!(out, "turned by the rotation {}", rows.join(" / "))?;
+        }
+        for (option, gain) in self.gains {
+            writeln!(out, "{}", gain.said(option, self.solid))?;
+        }
+        if let Some(reached) = self.reached() {
+            writeln!(out, "{reached}")?;
+        } else if self.is_exhausted() {
             writeln!(out, "no further split saves enough {}", self.measure())?;
         }
         if let Some(output) = &args.output {
@@ -170,14 +215,33 @@ impl Report<'_> {
                 "distance": { "lower": level.distance.lower, "upper": level.distance.upper },
             })
         };
+        let total = |total: &Total| {
+            json!({
+                "triboxes": total.triboxes,
+                "faces": total.faces,
+                "area": total.extent.area,
+                "volume": total.extent.volume,
+                "void_ratio": self.solid.filter(|&solid| solid > 0.0).map(|solid| total.void(solid)),
+            })
+        };
+        let gain = |(option, gain): &(String, Gain)| {
+            json!({
+                "option": option,
+                "is_gain": gain.is_gain,
+                "before": total(&gain.before),
+                "after": gain.after.as_ref().map(total),
+            })
+        };
         let mut fields = fields(self.mesh, self.loaded);
         let output = self.args.output.as_ref().map(|output| output.display().to_string());
         let others = [
             ("output", json!(output)),
-            ("is_closed", json!(self.hierarchy.is_solid)),
+            ("is_closed", json!(self.grown.hierarchy.is_solid)),
             ("volume", json!(self.solid)),
             ("measure", json!(self.measure())),
             ("levels", self.levels.iter().map(level).collect()),
+            ("orientation", json!(self.grown.turn.map(|turn| turn.rows))),
+            ("gains", self.gains.iter().map(gain).collect()),
             ("is_exhausted", json!(self.is_exhausted())),
         ];
         fields.extend(others.map(|(name, value)| (name.to_owned(), value)));

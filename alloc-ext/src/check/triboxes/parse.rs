@@ -19,7 +19,19 @@ pub(super) const NORMALS: [[f64; 3]; 9] = [
 /// A tribox in grid units: the least and the greatest product with each normal. Integers.
 pub(super) type Slabs = [[f64; 2]; 9];
 
-/// All but errors and void ratios.
+/// A record of the level table.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Level {
+    pub(super) triboxes: usize,
+    /// Claimed greatest distance of the boundary from the mesh, local frame.
+    pub(super) distance: f64,
+    /// Claimed greatest hull error of its nodes, local frame.
+    pub(super) error: f64,
+    /// Volumes over that of the solid, less 1.
+    pub(super) void_ratio: f64,
+}
+
+/// All that the section holds.
 pub(super) struct Triboxes {
     pub(super) scale_exponent: i32,
     pub(super) grid_exponent: i32,
@@ -27,13 +39,14 @@ pub(super) struct Triboxes {
     pub(super) is_solid: bool,
     /// What turns the mesh to the frame of the triboxes.
     pub(super) turn: Option<Turn>,
-    /// Triboxes of each level, and the claimed greatest distance of their boundary from the mesh,
-    /// local frame.
-    pub(super) levels: Vec<(usize, f64)>,
+    /// Levels.
+    pub(super) levels: Vec<Level>,
     /// The node that each split splits.
     splits: Vec<usize>,
     /// Parameters, and the split of each node.
     nodes: Vec<(Slabs, Option<usize>)>,
+    /// Claimed distance of each node's points from the convex hull of what it holds, local frame.
+    errors: Vec<f64>,
     depth: usize,
 }
 
@@ -56,14 +69,16 @@ impl Triboxes {
         }
         let mut read_levels = Vec::new();
         for _ in 0..levels {
-            read_levels.push((cursor.uint(4)? as usize, f64::from(cursor.float()?)));
-            // Hull error and void ratio.
-            cursor.uint(4)?;
-            cursor.uint(4)?;
+            read_levels.push(Level {
+                triboxes: cursor.uint(4)? as usize,
+                distance: f64::from(cursor.float()?),
+                error: f64::from(cursor.float()?),
+                void_ratio: f64::from(cursor.float()?),
+            });
         }
         let splits = (1..count).step_by(2).map(|_| cursor.uint(2).map(|node| node as usize));
         let splits = splits.collect::<Result<Vec<_>, _>>()?;
-        let mut nodes = Vec::new();
+        let (mut nodes, mut errors) = (Vec::new(), Vec::new());
         for _ in 0..count {
             let mut slabs = Slabs::default();
             for (slab, normal) in slabs.iter_mut().zip(NORMALS) {
@@ -73,7 +88,8 @@ impl Triboxes {
                 }
             }
             let split = Some(cursor.uint(2)? as usize).filter(|&split| split != 0xFFFF);
-            cursor.uint(2)?;
+            // The upper half of an f32.
+            errors.push(f64::from(f32::from_bits(cursor.uint(2)? << 16)));
             nodes.push((slabs, split));
         }
         cursor.end()?;
@@ -85,6 +101,7 @@ impl Triboxes {
             levels: read_levels,
             splits,
             nodes,
+            errors,
             depth: depth as usize,
         })
     }
@@ -116,14 +133,31 @@ impl Triboxes {
         if depth.iter().any(|&depth| depth > self.depth) {
             return Err(format!("a node is deeper than {}", self.depth));
         }
-        let counts = self.levels.iter().map(|level| level.0);
+        let counts = self.levels.iter().map(|level| level.triboxes);
         if !counts.is_sorted_by(|a, b| a < b)
-            || self.levels.first().is_none_or(|first| first.0 == 0)
-            || self.levels.last().map(|last| last.0) != Some(self.splits.len() + 1)
+            || self.levels.first().is_none_or(|first| first.triboxes == 0)
+            || self.levels.last().map(|last| last.triboxes) != Some(self.splits.len() + 1)
         {
             return Err("the last level has not all triboxes, or levels do not rise".into());
         }
         Ok(())
+    }
+
+    /// Each node's parameters, its parent, and the least error that is stated of it: its own, and
+    /// that of each level that has it.
+    pub(super) fn claims(&self) -> Vec<(Slabs, Option<usize>, f64)> {
+        let mut parents = vec![None; self.nodes.len()];
+        for (split, &parent) in self.splits.iter().enumerate() {
+            (parents[2 * split + 1], parents[2 * split + 2]) = (Some(parent), Some(parent));
+        }
+        let mut errors = self.errors.clone();
+        for level in &self.levels {
+            for (node, _) in self.union(level.triboxes) {
+                errors[node] = errors[node].min(level.error);
+            }
+        }
+        let nodes = self.nodes.iter().map(|(slabs, _)| *slabs);
+        nodes.zip(parents).zip(errors).map(|((slabs, up), error)| (slabs, up, error)).collect()
     }
 
     /// The triboxes of a level with so many, by the numbers of their nodes.

@@ -105,8 +105,9 @@ pub fn hull(
     })
 }
 
-/// Faces tested and splits a segment for each base hull, and times, beside the paper's Table 3.
-pub fn work(subject: &Subject) -> Result<[Table; 2], String> {
+/// Faces tested and splits a segment for each base hull, and times, beside the paper's Table 3 and
+/// Figure 8.
+pub fn work(subject: &Subject) -> Result<[Table; 3], String> {
     let columns = [
         "strategy",
         "base faces",
@@ -181,7 +182,8 @@ pub fn work(subject: &Subject) -> Result<[Table; 2], String> {
     if let Some(remark) = paper.and_then(|paper| paper.remark(subject.mesh.triangles.len())) {
         table.note(remark);
     }
-    Ok([table, times.finish()])
+    let [times, figure] = times.finish();
+    Ok([table, times, figure])
 }
 
 /// First hits by each engine and by parry3d: time, work and agreement.

@@ -25,6 +25,12 @@ const SECONDS: [[f64; 2]; HORSE.len()] = [
 ];
 const SECONDS_WITHOUT: f64 = 362.63;
 
+/// The second strategy's column.
+const SECOND: usize = 1;
+
+/// Characters of the longest bar.
+const BAR: f64 = 40.0;
+
 /// Segments after which a kept hull is reset.
 const KEPT: [usize; 3] = [1, 10, 100];
 
@@ -59,6 +65,8 @@ pub struct Times<'a> {
     undecided: usize,
     /// [`COARSE`], input units.
     coarse: f32,
+    /// Base faces and seconds for 10,000 segments, of the second strategy.
+    curve: Vec<(u32, f64)>,
 }
 
 impl<'a> Times<'a> {
@@ -110,7 +118,8 @@ impl<'a> Times<'a> {
              from it are undone",
         );
         let coarse = (COARSE * subject.diagonal()) as f32;
-        Times { table, segments, triangles, brute, is_horse, undecided: 0, coarse }
+        let curve = Vec::new();
+        Times { table, segments, triangles, brute, is_horse, undecided: 0, coarse, curve }
     }
 
     /// Times one base hull. `place`: row and column of the paper's table.
@@ -154,6 +163,10 @@ impl<'a> Times<'a> {
             |run| run.0,
         )?;
         self.undecided += undecided;
+        if column == SECOND {
+            // Microseconds of one are hundredths of seconds of 10,000.
+            self.curve.push((model.header().base_triangles, outer / 100.0));
+        }
         let mean = |sum: u64| fixed(sum as f64 / self.triangles.len() as f64, 1);
         let theirs = self.is_horse.then(|| SECONDS[row][column] / SECONDS_WITHOUT);
         self.table.push(row![
@@ -175,12 +188,28 @@ impl<'a> Times<'a> {
         Ok(())
     }
 
-    /// The table.
-    pub fn finish(mut self) -> Table {
+    /// The table, and Figure 8: a curve of the second strategy.
+    pub fn finish(mut self) -> [Table; 2] {
         if self.undecided > 0 {
             self.table.note(format!("{} triangles were undecided", self.undecided));
         }
-        self.table
+        let columns = ["base faces", "seconds for 10,000", "the paper's horse", "drawn"];
+        let title = "Times by the size of the base hull, second strategy, paper 000, Figure 8";
+        let mut figure = Table::new("figure_8", title, &columns);
+        let most = self.curve.iter().fold(0.0, |most: f64, (_, seconds)| most.max(*seconds));
+        for &(faces, seconds) in &self.curve {
+            let theirs = HORSE.iter().position(|(base, _)| *base == faces as usize);
+            let theirs = theirs.filter(|_| self.is_horse).map(|row| SECONDS[row][SECOND]);
+            let length = (BAR * seconds / most).round() as usize;
+            figure.push(row![
+                faces,
+                fixed(seconds, 3),
+                theirs.map_or(Cell::Empty, |seconds| fixed(seconds, 2)),
+                "#".repeat(length),
+            ]);
+        }
+        figure.note("until every crossed face is the surface's, from the base hull each");
+        [self.table, figure]
     }
 
     /// Microseconds a segment on the refined hull.

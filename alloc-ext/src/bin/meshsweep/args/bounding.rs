@@ -1,10 +1,10 @@
 //! Arguments of the commands that write hulls and triboxes of meshes.
 
-use super::building::{CollapseArgs, StoredBits};
+use super::building::{CollapseArgs, StoredBits, TriboxSplitArgs};
 use super::reading::{ReadArgs, ThreadArgs};
 use super::values::{distance, factor, length, percent, positive, tolerance, whole};
 use clap::Args;
-use meshsweep::tribox::SplitOptions;
+use meshsweep::tribox::{Planes, SplitOptions};
 use std::path::PathBuf;
 
 /// Groups of the options of hulls that are made from a mesh. Each is named as its struct.
@@ -119,9 +119,11 @@ pub struct TriboxArgs {
     pub output: Option<PathBuf>,
     #[command(flatten)]
     pub read: ReadArgs,
-    /// Levels, of 1, 2, 4, ... triboxes
-    #[arg(long, value_name = "N", default_value_t = 7, value_parser = whole::<1, 12>)]
-    pub levels: u32,
+    /// Levels, of 1, 2, 4, ... triboxes [default: 7; with --tribox-error 12]
+    #[arg(long, value_name = "N", value_parser = whole::<1, 12>)]
+    pub levels: Option<u32>,
+    #[command(flatten)]
+    pub split: TriboxSplitArgs,
     /// How far planes may move outward so that small faces vanish, in the mesh's unit
     #[arg(
         long,
@@ -139,7 +141,22 @@ pub struct TriboxArgs {
 }
 
 impl TriboxArgs {
+    /// Most levels.
+    pub fn levels(&self) -> u32 {
+        self.levels.unwrap_or(if self.split.tribox_error.is_some() { 12 } else { 7 })
+    }
+
+    /// What splits the mesh, without --extrema.
+    pub fn plain(&self) -> SplitOptions {
+        SplitOptions::default()
+            .with_leaves(1 << (self.levels() - 1))
+            .with_error(self.split.tribox_error)
+            .with_simplify(self.simplify)
+    }
+
+    /// What splits the mesh.
     pub fn options(&self) -> SplitOptions {
-        SplitOptions::default().with_leaves(1 << (self.levels - 1)).with_simplify(self.simplify)
+        let plain = self.plain();
+        if self.split.extrema { plain.with_planes(Planes::EXTREMA) } else { plain }
     }
 }

@@ -56,24 +56,8 @@ pub struct BuildArgs {
     /// Most triboxes of the finest level, with --for triboxes [default: 64]
     #[arg(long, value_name = "N", value_parser = whole::<{ TRIBOX_COUNT[0] }, { TRIBOX_COUNT[1] }>)]
     pub triboxes: Option<u32>,
-    /// Largest distance of a tribox from the hull of what it holds, in the mesh's unit
-    ///
-    /// Triboxes are split until each is within it. Without --triboxes that may take 4096 of them.
-    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
-    pub tribox_error: Option<f64>,
-    /// Turn triboxes to where the whole mesh's has the least volume or area
-    ///
-    /// If those of the finest level then have less in all. The blob stores the rotation.
-    #[arg(
-        long,
-        value_name = "volume|area",
-        hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(MEASURES.map(Measure::name)).map(measure)
-    )]
-    pub orient: Option<Measure>,
-    /// Split triboxes just beyond local extrema of the mesh too
-    #[arg(long)]
-    pub extrema: bool,
+    #[command(flatten)]
+    pub split: TriboxSplitArgs,
     /// Faces of each tight hull, with --for tight [default: 200]
     #[arg(
         long,
@@ -196,9 +180,9 @@ impl BuildArgs {
             .base_faces(self.base)
             .collapse(self.collapse.options())
             .triboxes(self.triboxes)
-            .tribox_error(self.tribox_error)
-            .orient(self.orient)
-            .extrema(self.extrema)
+            .tribox_error(self.split.tribox_error)
+            .orient(self.split.orient)
+            .extrema(self.split.extrema)
             .tight_faces(&self.tight)
             .slack(self.slack)
             .void_percent(self.void)
@@ -241,6 +225,29 @@ impl BuildArgs {
         ];
         others.into_iter().find_map(|(option, given)| given.then_some(option))
     }
+}
+
+/// How a mesh is split into triboxes.
+#[derive(Debug, Args)]
+pub struct TriboxSplitArgs {
+    /// Largest distance of a tribox from the hull of what it holds, in the mesh's unit
+    ///
+    /// Triboxes are split until each is within it. Without a limit that may take thousands of them.
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
+    pub tribox_error: Option<f64>,
+    /// Turn triboxes to where the whole mesh's has the least volume or area
+    ///
+    /// If those of the finest level then have less in all. A blob stores the rotation.
+    #[arg(
+        long,
+        value_name = "volume|area",
+        hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(MEASURES.map(Measure::name)).map(measure)
+    )]
+    pub orient: Option<Measure>,
+    /// Split triboxes just beyond local extrema of the mesh too
+    #[arg(long)]
+    pub extrema: bool,
 }
 
 /// Conditions of edge collapses.

@@ -63,6 +63,9 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
     };
     writeln!(out, "  why: {why}, at {points} {of} {kind}")?;
     write_costs(out, limits, first)?;
+    if first.setting.question == Question::FirstHit {
+        writeln!(out, "  undecided: {} of these segments", first.undecided)?;
+    }
     writeln!(out, "  built: {}", first.build())?;
     let by = match (first.setting.how, first.setting.recipe) {
         _ if first.setting.question == Question::FirstHit => ", by first_hit",

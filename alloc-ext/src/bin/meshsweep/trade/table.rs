@@ -27,6 +27,18 @@ const COLUMNS: [(&str, usize); 11] = [
     ("host ns", 8),
 ];
 
+/// The column of segments alone, and its place among the columns.
+const UNDECIDED: (usize, (&str, usize)) = (2, ("undecided", 9));
+
+/// Headings of a question.
+fn columns(question: Question) -> Vec<(&'static str, usize)> {
+    let mut columns = COLUMNS.to_vec();
+    if question == Question::FirstHit {
+        columns.insert(UNDECIDED.0, UNDECIDED.1);
+    }
+    columns
+}
+
 pub fn write(
     out: &mut dyn Write,
     mesh: &Path,
@@ -54,9 +66,10 @@ pub fn write(
         "\nnothing else has as small an error, as few instructions of a Cortex-M4F and as little \
          flash"
     )?;
-    write_rows(out, best.iter().filter_map(|&i| trade.rows.get(i)), width)?;
+    let columns = columns(*question);
+    write_rows(out, best.iter().filter_map(|&i| trade.rows.get(i)), &columns, width)?;
     writeln!(out, "\nall")?;
-    write_rows(out, trade.rows.iter(), width)?;
+    write_rows(out, trade.rows.iter(), &columns, width)?;
     if !trade.missing.is_empty() {
         writeln!(out, "\nnot built")?;
     }
@@ -72,13 +85,15 @@ pub fn write(
 fn write_rows<'r>(
     out: &mut dyn Write,
     rows: impl Iterator<Item = &'r Row>,
+    columns: &[(&str, usize)],
     width: usize,
 ) -> io::Result<()> {
     let named = |name: &str, dials: &str| format!("{name:<width$}  {dials:<18}");
-    write_line(out, &named("structure", "dials"), &COLUMNS, &COLUMNS.map(|(name, _)| name))?;
+    let headings: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    write_line(out, &named("structure", "dials"), columns, &headings)?;
     rows.into_iter().try_for_each(|row| {
         let name = named(&row.setting.recipe.name(), &row.setting.dials());
-        write_line(out, &name, &COLUMNS, &cells(row))
+        write_line(out, &name, columns, &cells(row))
     })
 }
 
@@ -96,7 +111,7 @@ pub(super) fn write_line(
     writeln!(out)
 }
 
-fn cells(row: &Row) -> [String; 11] {
+fn cells(row: &Row) -> Vec<String> {
     let most = |spread: Option<Spread>| {
         spread.map_or("-".to_owned(), |spread| AtMost(spread.most).to_string())
     };
@@ -105,7 +120,7 @@ fn cells(row: &Row) -> [String; 11] {
     };
     let [m4f, m0] = row.boards;
     let count = |count: Option<f64>| count.map_or("-".to_owned(), |x| format!("{x:.0}"));
-    [
+    let mut cells = vec![
         most(row.guaranteed),
         median(row.guaranteed),
         most(Some(row.found_lower)),
@@ -117,7 +132,11 @@ fn cells(row: &Row) -> [String; 11] {
         row.scratch.to_string(),
         m4f.map_or("-".to_owned(), |board| board.stack.to_string()),
         count(Some(row.nanoseconds)),
-    ]
+    ];
+    if row.setting.question == Question::FirstHit {
+        cells.insert(UNDECIDED.0, row.undecided.to_string());
+    }
+    cells
 }
 
 /// What a place of a question is.
@@ -139,7 +158,8 @@ fn write_notes(out: &mut dyn Write, question: Question, rows: &[Row]) -> io::Res
         Question::FirstHit => (
             "error, median: width of the interval of a segment's free length, which is how far it \
              goes before it\nmeets the mesh, the largest and the median of these segments, in the \
-             mesh's unit; of other segments\nit may be wider, and holds.",
+             mesh's unit; of other segments\nit may be wider, and holds. undecided: segments that \
+             are proved neither clear nor to meet the mesh.\n",
             "found: the free length in f64 less the lower end, and the upper\nend less it, the \
              largest.",
         ),
@@ -246,6 +266,7 @@ pub fn of_row(row: &Row) -> Value {
         "guaranteed": row.guaranteed.map(spread),
         "found_lower": spread(row.found_lower),
         "found_upper": row.found_upper.map(spread),
+        "undecided": (row.setting.question == Question::FirstHit).then_some(row.undecided),
         "instructions": of_boards(row.boards),
         "flash": row.flash,
         "scratch_bytes": row.scratch,

@@ -29,7 +29,7 @@ const PAPER: [(&str, [[f64; 2]; 2]); 2] = [
 ];
 
 /// The elements of a tree: a centre and the rim in order. A triangle is a fan of one.
-fn elements(subject: &Subject, of_fans: bool) -> Vec<Vec<DVec3>> {
+pub(super) fn elements(subject: &Subject, of_fans: bool) -> Vec<Vec<DVec3>> {
     let mesh = &subject.mesh;
     let at = |v: u32| Vec3::from_array(mesh.positions[v as usize]).as_dvec3();
     if of_fans {
@@ -207,7 +207,8 @@ fn distance_sq(p: DVec3, fan: &[DVec3], rejects: bool, work: &mut Work) -> f64 {
 fn quadratic(aa: f64, ab: f64, bb: f64, xa: f64, xb: f64, ss: f64) -> f64 {
     let at = |u: f64, v: f64| {
         let value = u * (u * aa + 2.0 * (v * ab - xa)) + v * (v * bb - 2.0 * xb) + ss;
-        value.max(0.0)
+        // Not by `max`, which takes no number for 0.
+        if value < 0.0 { 0.0 } else { value }
     };
     let determinant = aa * bb - ab * ab;
     let (u, v) = ((xa * bb - xb * ab) / determinant, (xb * aa - xa * ab) / determinant);

@@ -3,13 +3,16 @@
 //! ```text
 //! figures (what paper 000 reports) ─┬─ hulls (000.1, 000.2), segments (000.3)
 //! dop ─ hierarchy (tree of k-DOPs) ─┼─ dops  (000.4)
-//! fans (the paper's decomposition) ─┴─ fan_queries (003.1, 003.2, 003.3)
+//! fans (the paper's decomposition) ─┴─ fan_queries (003.1, 003.2, 003.3) ─┬─ fan_sample
+//!                             fan_kernel (in f32, as on boards; 003.3) ──┘
 //!    triboxes (001.1), oriented (001.3, 001.4), hausdorff (004.10)
 //! ```
 
 mod dop;
 mod dops;
+pub mod fan_kernel;
 mod fan_queries;
+pub mod fan_sample;
 mod fans;
 pub mod figures;
 mod hausdorff;
