@@ -1,12 +1,13 @@
 //! The answers of a setting, the work that they took, and the time of this machine.
 
 use super::cost::{Features, Shape};
+use super::field::to_surface;
 use super::setting::{How, Question, Setting};
 use crate::builder::Recipe;
 use crate::distances::Distances;
 use meshsweep_core::{
-    Blob, Budget, ClosestPoint, CoherentQuery, Facing, FirstHit, Hint, QueryError, ScratchEntry,
-    Work,
+    Blob, Budget, ClosestPoint, CoherentQuery, Facing, FirstHit, Hint, Interval, QueryError,
+    ScratchEntry, Work,
 };
 use std::hint::black_box;
 use std::time::Instant;
@@ -21,8 +22,10 @@ pub(super) struct Answer {
     pub lower: f64,
     /// It is no more; infinite if the structure has no upper bound.
     pub upper: f64,
-    /// What its cost is predicted from.
-    pub features: Features,
+    /// What the cost of a search is predicted from. `None`: there was none, the field was enough.
+    pub features: Option<Features>,
+    /// The same of a look-up before the search, in the field of a box tree.
+    pub look_up: Option<Features>,
 }
 
 /// What all queries answered.
@@ -144,8 +147,37 @@ pub(super) fn ask(
                 Ok((f64::from(bound.lower), f64::INFINITY, bound.work))
             })
         }
+        Recipe::Sdf(_) => {
+            let field = blob.sdf()?;
+            let of = Of { budget, shape: Shape::of_field(&field), scratch: 0 };
+            twice(points, &of, |[p]| {
+                let Interval { lower, upper } = to_surface(&field, field.distance(p)?.distance);
+                Ok((f64::from(lower), f64::from(upper), Work::NONE))
+            })
+        }
+        Recipe::TreeWithSdf(_) => {
+            let both = blob.bvh_with_sdf()?;
+            let mut stack = entries(setting, both.tree().scratch_entries_for(budget));
+            let scratch = size_of_val(stack.as_slice());
+            let of = Of { budget, shape: Shape::of_tree(both.tree()), scratch };
+            let mut asked = twice(points, &of, |[p]| {
+                let found = both.distance_bounds(p, budget, &mut stack)?;
+                let Interval { lower, upper } = found.distance;
+                Ok((f64::from(lower), f64::from(upper), found.work))
+            })?;
+            let shape = Shape::of_field(both.field());
+            for (answer, place) in asked.answers.iter_mut().zip(points) {
+                answer.look_up = Some(shape.features(place, &budget, &Work::NONE));
+                let was_asked = |features: &Features| features[OPENED] > 0.0;
+                answer.features = answer.features.filter(was_asked);
+            }
+            Ok(asked)
+        }
     }
 }
+
+/// The feature that counts opened nodes.
+const OPENED: usize = 5;
 
 fn entries(setting: &Setting, enough: usize) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; setting.entries.unwrap_or(enough).min(enough).max(1)]
@@ -234,7 +266,8 @@ fn first<const N: usize>(
 ) -> Result<Asked, QueryError> {
     let answers = places.iter().map(|&place| {
         let (lower, upper, work) = one(place)?;
-        Ok(Answer { lower, upper, features: of.shape.features(&place, &of.budget, &work) })
+        let features = Some(of.shape.features(&place, &of.budget, &work));
+        Ok(Answer { lower, upper, features, look_up: None })
     });
     let answers = answers.collect::<Result<Vec<_>, QueryError>>()?;
     Ok(Asked { answers, nanoseconds: 0.0, scratch: of.scratch })
