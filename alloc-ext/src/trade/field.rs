@@ -13,6 +13,14 @@ const OUTSIDE: [[f64; 2]; 2] = [[450.0, 450.0 - 184.3], [8020.0, 8020.0 - 2152.0
 /// How many times as many instructions the costliest place takes.
 const COSTLIEST: [f64; 2] = [1.15, 1.5];
 
+/// Most instructions of a look-up anywhere, whatever the points that were measured: a limit of time
+/// takes this, and no search for a costly place. A layout whose look-ups take a number of steps
+/// multiplies by the field's largest number of them here.
+pub(super) fn most(board: Board) -> f64 {
+    let [outside, ..] = cost(board).instructions;
+    outside
+}
+
 const fn of_board(board: usize) -> Cost {
     let [outside, spared] = OUTSIDE[board];
     Cost {

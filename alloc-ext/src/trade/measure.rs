@@ -3,6 +3,7 @@
 use super::ask::{Answer, Asked, ask};
 use super::blobs::{NotBuilt, build_group};
 use super::cost::{Board, Cost, Search};
+use super::field;
 use super::fitted::cost as fitted_cost;
 use super::setting::{Question, Setting};
 use super::truth::Truth;
@@ -273,7 +274,11 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
             searched + answer.look_up.as_ref().map_or(0.0, |features| look_up.of(features))
         };
         let all: Vec<f64> = answers.iter().map(of).collect();
-        Some(Instructions::of(cost, setting.search().stack(board), &all))
+        let mut found = Instructions::of(cost, setting.search().stack(board), &all);
+        if setting.search() == Search::Field {
+            found.most = field::most(board);
+        }
+        Some(found)
     });
     let mean = |feature: usize| {
         let of = |answer: &Answer| answer.features.map_or(0.0, |features| features[feature]);

@@ -175,7 +175,7 @@ impl fmt::Display for Setting {
 const FACES: [u32; 7] = [20, 50, 100, 200, 500, 1000, 2000];
 
 /// Bytes of the distance fields that are measured.
-const FIELDS: [u32; 2] = [4 << 10, 16 << 10];
+const FIELDS: [u32; 2] = [2 << 10, 8 << 10];
 
 /// The settings that are measured by default, for a mesh of this diagonal and so many triangles.
 /// Coherent queries are among them if the points are a path, or the caller's own.

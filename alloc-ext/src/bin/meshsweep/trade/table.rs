@@ -74,7 +74,7 @@ fn write_rows<'r>(
     rows: impl Iterator<Item = &'r Row>,
     width: usize,
 ) -> io::Result<()> {
-    let named = |name: &str, dials: &str| format!("{name:<width$}  {dials:<18}");
+    let named = |name: &str, dials: &str| format!("{name:<width$}  {dials:<22}");
     write_line(out, &named("structure", "dials"), &COLUMNS, &COLUMNS.map(|(name, _)| name))?;
     rows.into_iter().try_for_each(|row| {
         let name = named(&row.setting.recipe.name(), &dials(row));
