@@ -1,8 +1,9 @@
 //! The cost of a look-up in a distance field, and what the field tells of the surface.
 //!
-//! A look-up takes the same steps at every place of a field's lattice, so nothing is fitted: the
-//! numbers are those of the suite on the boards, `field_distance` in `host-tests/costs.txt`, and the
-//! greatest of `cargo xtask count --board "field field.msw"`.
+//! A look-up takes the same steps at every place of a field's lattice, so nothing is fitted. The
+//! numbers are those of the suite on the boards: `field_distance` in `host-tests/costs.txt` within
+//! the field, and `signed`, of which seven in eight points are outside. `cargo xtask count --board
+//! "field field.msw"` prints the most.
 
 use super::cost::{Board, Cost};
 use meshsweep_core::{Interval, Sdf, SdfKind};

