@@ -24,8 +24,8 @@ pub struct DistanceBounds {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct SignedBounds {
-    /// The signed distance to the input mesh, input units: negative inside. If the side is undecided,
-    /// it holds the distance with both signs, or with the sign that is the right one.
+    /// The signed distance to the input mesh, input units: negative inside. If the side is
+    /// undecided, it holds the distance with both signs, or with the sign that is the right one.
     pub distance: Interval,
     /// The side of the point.
     pub side: Side,
@@ -35,8 +35,8 @@ pub struct SignedBounds {
     pub ended: Ended,
 }
 
-/// Whether an interval meets the tolerances of a budget. Of signed distances the relative one is met
-/// on either side of 0.
+/// Whether an interval meets the tolerances of a budget. Of signed distances the relative one is
+/// met on either side of 0.
 #[inline(always)]
 fn is_narrow(Interval { lower, upper }: Interval, budget: &Budget) -> bool {
     let part = 1.0 + budget.relative;
@@ -54,8 +54,8 @@ fn common(a: Interval, b: Interval) -> Interval {
 
 impl BvhWithSdf<'_> {
     /// Bounds of the distance of `point` (input units) from the surface, to the tolerance of the
-    /// budget. If the field's interval meets the tolerance, it is the answer. Else the tree searches
-    /// the closest point between its ends.
+    /// budget. If the field's interval meets the tolerance, it is the answer. Else the tree
+    /// searches the closest point between its ends.
     ///
     /// With [`Budget::EXACT`] it is the distance of the tree's closest point, or narrower.
     ///
@@ -98,11 +98,11 @@ impl BvhWithSdf<'_> {
         })
     }
 
-    /// Bounds of the signed distance of `point` (input units), negative inside, and its side. If the
-    /// field's interval meets the tolerance of the budget, it is the answer, with a side unless the
-    /// interval holds 0. Where the field tells the side but is too wide, the tree searches the
-    /// closest point between its ends. Where it does not, the tree searches the side as well, without
-    /// a tolerance.
+    /// Bounds of the signed distance of `point` (input units), negative inside, and its side. If
+    /// the field's interval meets the tolerance of the budget, it is the answer, with a side unless
+    /// the interval holds 0. Where the field tells the side but is too wide, the tree searches the
+    /// closest point between its ends. Where it does not, the tree searches the side as well,
+    /// without a tolerance.
     ///
     /// A field of kind signed suits the question best. One of kind solid tells of points outside
     /// alone, one of kind surface of none: the tree then answers the others.

@@ -7,10 +7,10 @@ use crate::query::{
 };
 
 impl BvhWithSdf<'_> {
-    /// [`Bvh::closest_point`](crate::Bvh::closest_point). The field's interval limits the search: no
-    /// triangle beyond its upper end is looked at, and with a tolerance a triangle that is near enough
-    /// to its lower end ends the search. Without a tolerance the answer has the tree's bits; then
-    /// processors with vector registers, or without floating point, ask the tree alone.
+    /// [`Bvh::closest_point`](crate::Bvh::closest_point). The field's interval limits the search:
+    /// no triangle beyond its upper end is looked at, and with a tolerance a triangle that is near
+    /// enough to its lower end ends the search. Without a tolerance the answer has the tree's bits;
+    /// then processors with vector registers, or without floating point, ask the tree alone.
     ///
     /// With a tolerance the lower end of the distance is the greater one of both. The upper end is
     /// that of the triangle found. If the distance is enough without a point,
@@ -60,9 +60,9 @@ impl BvhWithSdf<'_> {
         }
     }
 
-    /// Whether the field's interval limits the search. Where steps or memory may end an exact search,
-    /// its order must be that of all targets. Vector targets search exact points in another order,
-    /// in which a limit spares less than the look-up costs, and integers have limits of their own.
+    /// Whether the field's interval limits the search. Where steps or memory may end an exact
+    /// search, its order must be that of all targets. Vector targets search exact points in an
+    /// order of their own, and integers have limits of their own.
     #[inline(always)]
     fn is_limited(&self, budget: &Budget, scratch: &[ScratchEntry]) -> bool {
         if !is_exact(budget) {

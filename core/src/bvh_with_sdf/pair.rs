@@ -9,9 +9,9 @@ use crate::sdf::{FieldDistance, Sdf, SdfKind};
 /// A box tree and the distance field of the same mesh. Questions are those of the tree; the field
 /// answers the ones that it can, and limits the search of the others.
 ///
-/// Every answer is at least as good as the tree's: it holds as surely, and no interval is wider than
-/// the tolerance asked for. [`tree`](Self::tree) and [`field`](Self::field) give both views for all
-/// other questions.
+/// Every answer is at least as good as the tree's: it holds as surely, and no interval is wider
+/// than the tolerance asked for. [`tree`](Self::tree) and [`field`](Self::field) give both views
+/// for all other questions.
 ///
 /// ```
 /// use meshsweep_core::{Budget, BvhWithSdf, Scratch};
@@ -32,8 +32,8 @@ pub(super) const UNKNOWN: Interval = Interval::new(0.0, f32::INFINITY);
 
 impl<'a> BvhWithSdf<'a> {
     /// Pairs a tree with a field. Both must be of the same mesh, in the same unit and place: of the
-    /// same blob they are. For two blobs the caller answers: if the meshes differ, any answer may be
-    /// wrong, and none panics.
+    /// same blob they are. For two blobs the caller answers: if the meshes differ, any answer may
+    /// be wrong, and none panics.
     #[must_use]
     pub const fn new(tree: Bvh<'a>, field: Sdf<'a>) -> Self {
         BvhWithSdf { tree, field }

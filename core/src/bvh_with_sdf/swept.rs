@@ -2,10 +2,10 @@
 //!
 //! A look-up at a point proves that a ball about it is clear of the surface: the lower end of its
 //! distance is the ball's radius. A sphere of radius r is clear by more than d if the ball of its
-//! centre is larger than r + d. So is a capsule if the balls of places on its axis, each less r + d,
-//! cover the axis: the distance falls by no more than the way (figure). A sphere that moves is a
-//! capsule at rest. A capsule that moves is covered by capsules at rest, each thicker by what an end
-//! moves in its share of the time.
+//! centre is larger than r + d. So is a capsule if the balls of places on its axis, each less r +
+//! d, cover the axis: the distance falls by no more than the way (figure). A sphere that moves is a
+//! capsule at rest. A capsule that moves is covered by capsules at rest, each thicker by what an
+//! end moves in its share of the time.
 //!
 //! ```text
 //!          _____ . _____
@@ -50,8 +50,8 @@ impl BvhWithSdf<'_> {
     /// Whether a point of `solid` is at most `distance` from the surface. See
     /// [`Bvh::solid_within`](crate::Bvh::solid_within), which answers where the field does not.
     ///
-    /// The field decides spheres and capsules, solids of one corner and of two. A `Yes` of the field
-    /// has no witness. The work of the field is 0.
+    /// The field decides spheres and capsules, solids of one corner and of two. A `Yes` of the
+    /// field has no witness. The work of the field is 0.
     ///
     /// Cost: one look-up for a sphere, at most 13 for a capsule; and the tree's question if they do
     /// not decide.
@@ -91,15 +91,15 @@ impl BvhWithSdf<'_> {
     }
 
     /// Where a solid that moves first meets the surface. See
-    /// [`Bvh::solid_first_contact`](crate::Bvh::solid_first_contact), which answers unless the field
-    /// proves that the whole motion of a sphere or a capsule is clear.
+    /// [`Bvh::solid_first_contact`](crate::Bvh::solid_first_contact), which answers unless the
+    /// field proves that the whole motion of a sphere or a capsule is clear.
     ///
     /// Cost: at most 13 look-ups for a sphere and 65 for a capsule; and the tree's question if they
     /// do not prove it.
     ///
     /// # Errors
-    /// Those of [`Bvh::solid_first_contact`](crate::Bvh::solid_first_contact); the field also answers
-    /// beyond the tree's domain.
+    /// Those of [`Bvh::solid_first_contact`](crate::Bvh::solid_first_contact); the field also
+    /// answers beyond the tree's domain.
     #[inline(never)]
     pub fn solid_first_contact(
         &self,

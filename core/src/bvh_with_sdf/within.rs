@@ -11,10 +11,11 @@ impl BvhWithSdf<'_> {
     /// The field proves no single triangle: a `Yes` of the field has no witness. The work of the
     /// field is 0: `work.opened` tells whether the tree was asked.
     ///
-    /// Like the tree's question it asks about the surface: a point deep inside is `No`. A guard that
-    /// must not call a point inside clear asks [`signed_bounds`](Self::signed_bounds).
+    /// Like the tree's question it asks about the surface: a point deep inside is `No`. A guard
+    /// that must not call a point inside clear asks [`signed_bounds`](Self::signed_bounds).
     ///
-    /// Cost: one look-up where the field decides, else that and [`Bvh::within`](crate::Bvh::within).
+    /// Cost: one look-up where the field decides, else that and
+    /// [`Bvh::within`](crate::Bvh::within).
     ///
     /// # Errors
     /// Those of [`Bvh::within`](crate::Bvh::within).

@@ -16,7 +16,9 @@ macro_rules! blocks_of {
     ($name:ident, $suite:ident) => {
         mod $name {
             use super::Blocks;
-            use $suite::ask::{apart, both, curve, deform, hull, hull_moving, tight, tree, triboxes};
+            use $suite::ask::{
+                apart, both, curve, deform, hull, hull_moving, tight, tree, triboxes,
+            };
             use $suite::{Kind, Observer, Plan, Recorder, Subject, run};
 
             #[derive(Default)]
