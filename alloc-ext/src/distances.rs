@@ -1,8 +1,8 @@
 //! A structure of a blob that answers distances from points.
 
 use meshsweep_core::{
-    Budget, BuildFor, Bvh, ClosestPoint, Curve, CurveSegment, Ended, Hint, Hull, Interval,
-    QueryError, ScratchEntry, Side, SignedDistance, TightHull, Verdict, Work,
+    Budget, BuildFor, Bvh, BvhWithSdf, ClosestPoint, Curve, CurveSegment, Ended, Hint, Hull,
+    Interval, QueryError, ScratchEntry, Side, SignedDistance, TightHull, Verdict, Work,
 };
 
 /// A structure that answers distances from points.
@@ -10,6 +10,8 @@ use meshsweep_core::{
 pub enum Distances<'a> {
     /// A box tree with boxes for distances.
     Tree(Bvh<'a>),
+    /// The same with a distance field, which is asked first.
+    TreeWithField(BvhWithSdf<'a>),
     /// A hull hierarchy.
     Hull(Hull<'a>),
     /// A tight hull with boxes for distances.
@@ -71,6 +73,7 @@ impl Distances<'_> {
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Tree(_) => "box tree",
+            Self::TreeWithField(_) => "box tree with a distance field",
             Self::Hull(_) => "hull hierarchy",
             Self::Tight(_) => "finest tight hull",
             Self::Curve(_) => "curve",
@@ -82,6 +85,7 @@ impl Distances<'_> {
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         match self {
             Self::Tree(tree) => tree.bounds(),
+            Self::TreeWithField(both) => both.tree().bounds(),
             Self::Hull(hull) => hull.bounds(),
             Self::Tight(hull) => hull.bvh().bounds(),
             Self::Curve(curve) => curve.bounds(),
@@ -93,6 +97,7 @@ impl Distances<'_> {
     pub fn scratch_entries(&self) -> usize {
         match self {
             Self::Tree(tree) => tree.scratch_entries(),
+            Self::TreeWithField(both) => both.tree().scratch_entries(),
             Self::Hull(hull) => hull.scratch_entries(),
             Self::Tight(hull) => hull.scratch_entries(),
             Self::Curve(curve) => curve.scratch_entries(),
@@ -114,6 +119,7 @@ impl Distances<'_> {
             Self::Tree(tree) => {
                 tree.closest_point_in_order(point, &mut Hint::NONE.clone(), budget, scratch)?
             }
+            Self::TreeWithField(both) => both.closest_point(point, budget, scratch)?,
             Self::Hull(hull) => hull.closest_point(point, budget, scratch)?,
             Self::Tight(hull) => hull.closest_point(point, budget, scratch)?,
             Self::Curve(curve) => {
@@ -144,6 +150,7 @@ impl Distances<'_> {
     ) -> Result<AnyWithin, QueryError> {
         let found = match self {
             Self::Tree(tree) => tree.within(point, distance, budget, scratch)?,
+            Self::TreeWithField(both) => both.within(point, distance, budget, scratch)?,
             Self::Tight(hull) => hull.within(point, distance, budget, scratch)?,
             Self::Curve(curve) => {
                 let found = curve.within(point, distance, budget, scratch)?;
@@ -184,4 +191,23 @@ pub fn signed_distance(
         }
     }
     tree.signed_distance_by_winding(point, budget, scratch)
+}
+
+/// The same of a box tree with a distance field. The side is that of the field, if it tells one.
+///
+/// # Errors
+/// Those of [`signed_distance`].
+pub fn signed_distance_by_field(
+    both: &BvhWithSdf<'_>,
+    point: [f32; 3],
+    budget: Budget,
+    scratch: &mut [ScratchEntry],
+) -> Result<SignedDistance, QueryError> {
+    let found = both.signed_distance(point, budget, scratch)?;
+    match found.side {
+        Side::Undecided(_) if both.tree().serves_winding() => {
+            both.tree().signed_distance_by_winding(point, budget, scratch)
+        }
+        _ => Ok(found),
+    }
 }

@@ -1,6 +1,7 @@
 //! [`Blob`]: checked once by `open`. Its views of structures then cost no check.
 
 use crate::bvh::tree::format::Bvh;
+use crate::bvh_with_sdf::BvhWithSdf;
 use crate::curve::format::Curve;
 use crate::format::layout::{SectionKind, field};
 use crate::format::{Bytes, Header, OpenError, Section, SectionTable, ok, section};
@@ -159,6 +160,14 @@ impl<'a> Blob<'a> {
     /// [`QueryError::NotServed`] if the blob was built without it.
     pub fn sdf(&self) -> Result<Sdf<'a>, QueryError> {
         Sdf::view(self.bytes).map_err(|_| QueryError::NO_SDF)
+    }
+
+    /// The box tree and the distance field together: the field is asked first.
+    ///
+    /// # Errors
+    /// [`QueryError::NotServed`] if the blob was built without one of both.
+    pub fn bvh_with_sdf(&self) -> Result<BvhWithSdf<'a>, QueryError> {
+        Ok(BvhWithSdf::new(self.bvh()?, self.sdf()?))
     }
 
     /// Sections of the blob, in file order, without those of a kind that this version does not

@@ -43,6 +43,7 @@
 //! | how far is a mesh, by a tight hull of few faces; is it within a distance | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart, or farther than a distance; bounds without triangles | [`Triboxes::separation`], [`Triboxes::within_of`], [`Triboxes::distance`], [`Triboxes::clip`] |
 //! | bounds of the distance in some 200 instructions of a Cortex-M4F, the side and a direction, from a lattice | [`Sdf::distance`], [`Sdf::distance_and_gradient`], [`Sdf::within`] |
+//! | the same by the field first, and by the box tree where the field cannot decide | [`BvhWithSdf::within`], [`BvhWithSdf::distance_bounds`], [`BvhWithSdf::signed_bounds`] |
 //! | the same in whole units, without floating point | [`Sdf::distance_in_units`], [`Sdf::gradient_in_units`] |
 //! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`], [`Curve::nearest`], [`Curve::all_within`] |
 //! | the same of a point that moves little, or in several calls | [`Curve::sweep`] |
@@ -66,7 +67,8 @@
 //!
 //! # Layers
 //! A folder may use only folders to its left in this line:
-//! `num` ← `geom` ← `format` ← `query` ← {`bvh`, `hull`, `tribox`, `curve`, `sdf`} ← `tight` ← `blob`.
+//! `num` ← `geom` ← `format` ← `query` ← {`bvh`, `hull`, `tribox`, `curve`, `sdf`} ← `tight` ←
+//! `bvh_with_sdf` ← `blob`.
 //!
 //! | folder | owns |
 //! | --- | --- |
@@ -80,6 +82,7 @@
 //! | `curve` | polygonal curves in 2-D and 3-D |
 //! | `sdf` | the distance field: one look-up |
 //! | `tight` | tight hulls, each stored as a box tree |
+//! | `bvh_with_sdf` | a box tree and a distance field of one mesh: the field is asked first |
 //! | `blob` | [`Blob`]: opens, lets each structure check its own sections, hands out views |
 //!
 //! Each structure has its bytes in a folder `format` (the box tree in `tree/format`): `layout`
@@ -97,6 +100,7 @@
 
 mod blob;
 mod bvh;
+mod bvh_with_sdf;
 mod curve;
 mod format;
 mod geom;
@@ -112,6 +116,7 @@ pub use bvh::{
     Bvh, CoherentClosest, CoherentPair, CoherentQuery, CoherentScene, Eye, Facing, FrontFacing,
     Hint, KeptPair, Neighbor, PlacedModel, ProcessorQuestions, Scene, SceneDistance, WindingNumber,
 };
+pub use bvh_with_sdf::{BvhWithSdf, DistanceBounds, SignedBounds};
 pub use curve::{
     Curve, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance, CurveSweep, Zone,
 };

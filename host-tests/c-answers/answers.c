@@ -20,6 +20,8 @@ extern const unsigned char fence[];
 extern const uint32_t fence_bytes;
 extern const unsigned char field[];
 extern const uint32_t field_bytes;
+extern const unsigned char both[];
+extern const uint32_t both_bytes;
 extern const unsigned char bend[];
 extern const uint32_t bend_bytes;
 
@@ -572,6 +574,47 @@ static void distance_field(void)
     end("field");
 }
 
+static void field_first(void)
+{
+    msw_both part;
+    static const float ends[2][3] = {{20.0f, 20.0f, 50.0f}, {20.0f, 24.0f, 55.0f}};
+    begin();
+    fold_word((uint32_t)msw_open_both(&part, both, both_bytes));
+    fold_word(msw_both_scratch_entries(&part));
+    for (int round = 0; round < ROUNDS; round++) {
+        float point[3];
+        random_point(point);
+        msw_within_answer within;
+        fold_word((uint32_t)msw_both_within(&part, point, 8.0f, budget_of(round), scratch,
+                                            scratch_of(round), &within));
+        fold(&within, sizeof within);
+        const msw_budget coarse = {0.1f, 2.0f, UINT32_MAX};
+        msw_bounds_answer bounds;
+        fold_word((uint32_t)msw_both_distance(&part, point, &coarse, scratch, scratch_of(round),
+                                              &bounds));
+        fold(&bounds, sizeof bounds);
+        msw_signed_bounds_answer signed_bounds;
+        fold_word((uint32_t)msw_both_signed_distance(&part, point, &coarse, scratch,
+                                                     scratch_of(round), &signed_bounds));
+        fold(&signed_bounds, sizeof signed_bounds);
+        msw_closest near;
+        fold_word((uint32_t)msw_both_closest_point(&part, point, &coarse, scratch,
+                                                   scratch_of(round), &near));
+        fold_closest(&near);
+        msw_hit met;
+        float moved[2][3];
+        for (int axis = 0; axis < 3; axis++) {
+            moved[0][axis] = point[axis];
+            moved[1][axis] = point[axis] + 4.0f;
+        }
+        fold_word((uint32_t)msw_both_solid_first_contact(&part, ends[0], moved[0], 2, 0.5f,
+                                                         budget_of(round), scratch,
+                                                         scratch_of(round), &met));
+        fold(&met, sizeof met);
+    }
+    end("field_first");
+}
+
 static void tight_hull(void)
 {
     static msw_tight hull;
@@ -934,6 +977,7 @@ int main(void)
     triboxes();
     curves();
     distance_field();
+    field_first();
     tight_hull();
     refined_hull();
     sweeps();

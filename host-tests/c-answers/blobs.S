@@ -17,6 +17,7 @@
     blob torus
     blob fence
     blob field
+    blob both
     blob bend
 
 #ifdef __linux__

@@ -27,11 +27,12 @@ const BARE: [&str; 19] = [
 ];
 
 /// Images that run.
-const RUNNING: [&str; 11] = [
+const RUNNING: [&str; 12] = [
     "ask",
     "robot",
     "suite_hull",
     "suite_apart",
+    "suite_both",
     "suite_moving",
     "suite_tree",
     "suite_triboxes",

@@ -12,15 +12,15 @@ use meshsweep::progress::Watch;
 use meshsweep::surface::VertexBits;
 use meshsweep_core::{Blob as Opened, Hull, ScratchEntry};
 use meshsweep_suite::ask::{
-    Refused, apart, curve, deform, hull, hull_moving, sdf, tight, tree, triboxes,
+    Refused, apart, both, curve, deform, hull, hull_moving, sdf, tight, tree, triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Kind, Observer, Plan, Recorder, Subject, run};
 
 use crate::generate::{Triangles, bracket, groove_block, torus};
 use crate::golden::{
-    bending_torus, bracket_hulls, fence_curves, groove_field, tool_path_curve, torus_sieve,
-    torus_triboxes,
+    bending_torus, bracket_hulls, fence_curves, groove_both, groove_field, tool_path_curve,
+    torus_sieve, torus_triboxes,
 };
 
 /// A blob of the images.
@@ -64,11 +64,13 @@ pub enum Blob {
     Bend,
     /// The distance field of the block with a slot.
     Field,
+    /// Its box tree and a smaller distance field.
+    Both,
 }
 
 impl Blob {
     /// All blobs.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Torus,
         Self::Bracket,
         Self::Grid16,
@@ -87,6 +89,7 @@ impl Blob {
         Self::ToolPath,
         Self::Bend,
         Self::Field,
+        Self::Both,
     ];
 
     /// The file's name without its extension.
@@ -111,6 +114,7 @@ impl Blob {
             Self::ToolPath => "tool_path",
             Self::Bend => "bend",
             Self::Field => "field",
+            Self::Both => "both",
         }
     }
 
@@ -143,6 +147,7 @@ impl Blob {
             Self::ToolPath => Ok(tool_path_curve()),
             Self::Bend => Ok(bending_torus()),
             Self::Field => Ok(groove_field()),
+            Self::Both => Ok(groove_both()),
             Self::SoupTree => Ok(box_tree(soup(), &default.with_cull(true))),
         }
     }
@@ -194,6 +199,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
                 of_subject::<hull_moving::Moving<'_>>(&bytes, &mut hull_moving::Scratch::new())?
             }
             Blob::Apart => of_subject::<apart::Apart<'_>>(&bytes, &mut apart::Scratch::new())?,
+            Blob::Both => of_subject::<both::BvhWithSdf<'_>>(&bytes, &mut both::Scratch::new())?,
             _ => expected(&bytes)?,
         };
         fs::write(path.with_extension("txt"), answers).map_err(failed)?;

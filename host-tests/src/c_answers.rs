@@ -7,7 +7,7 @@ mod kept;
 use crate::corrupt::{entry, put_u32, seal, word};
 use meshsweep_core::internal::format::layout::VERSION_MAJOR;
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, CoherentPair, CoherentQuery, CoherentScene, Curve,
+    Blob, Budget, Bvh, BvhWithSdf, ClosestPoint, CoherentPair, CoherentQuery, CoherentScene, Curve,
     CurveClosest, CurveNeighbor, Decided, Ended, Facing, FieldDistance, FirstHit, Focus, Hint, Hit,
     Hull, Interval, KeptPair, Motion, Neighbor, NodePair, PairDistance, PlacedModel, Pose,
     QueryError, RefinedHull, RoundedPose, Scratch, Sdf, Side, Solid, TightHulls, Triboxes,
@@ -184,7 +184,7 @@ pub fn lines(
     bracket: &[u8],
     torus: &[u8],
     fence: &[u8],
-    field: &[u8],
+    [field, both]: [&[u8]; 2],
     bend: &[u8],
 ) -> Result<String, Box<dyn std::error::Error>> {
     let model = Bvh::open(groove)?;
@@ -207,6 +207,7 @@ pub fn lines(
     text += &triboxes(torus)?;
     text += &curves(fence)?;
     text += &distance_field(field)?;
+    text += &field_first(both)?;
     text += &tight_hull(hulls)?;
     text += &refined_hull(bracket)?;
     text += &kept::sweeps(bracket)?;
@@ -535,6 +536,42 @@ fn distance_field(field: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     Ok(kind.line("field"))
 }
 
+fn field_first(both: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
+    let part = BvhWithSdf::open(both)?;
+    let (mut kind, mut memory) = (Kind::begin(), Scratch::<SCRATCH>::new());
+    kind.words(&[0, part.tree().scratch_entries() as u32]);
+    let coarse = Budget::EXACT.with_relative(0.1).with_absolute(2.0);
+    for round in 0..ROUNDS {
+        let (point, budget) = (kind.point(), budget(round));
+        let scratch = &mut memory[..entries(round)];
+        let found = part.within(point, 8.0, budget, scratch)?;
+        kind.words(&[0]);
+        kind.verdict(found.verdict);
+        kind.words(&[found.witness.unwrap_or(u32::MAX)]);
+        kind.work(found.work);
+        let found = part.distance_bounds(point, coarse, scratch)?;
+        kind.words(&[0]);
+        kind.interval(found.distance);
+        kind.words(&[ended(found.ended)]);
+        kind.work(found.work);
+        let found = part.signed_bounds(point, coarse, scratch)?;
+        kind.words(&[0]);
+        kind.side(found.side);
+        kind.interval(found.distance);
+        kind.words(&[ended(found.ended)]);
+        kind.work(found.work);
+        let near = part.closest_point(point, coarse, scratch)?;
+        kind.words(&[0]);
+        kind.closest(&near);
+        let moved = [point, point.map(|x| x + 4.0)];
+        let ends = [[20.0, 20.0, 50.0], [20.0, 24.0, 55.0]];
+        let (from, to) = (Solid::new(&ends, 0.5)?, Solid::new(&moved, 0.5)?);
+        kind.words(&[0]);
+        kind.first_hit(&part.solid_first_contact(&from, &to, budget, scratch)?);
+    }
+    Ok(kind.line("field_first"))
+}
+
 fn curves(fence: &[u8]) -> Result<String, Box<dyn std::error::Error>> {
     let curve = Curve::open(fence)?;
     let (mut kind, mut scratch) = (Kind::begin(), Scratch::<SCRATCH>::new());
@@ -703,7 +740,7 @@ pub fn of_fixtures(folder: &std::path::Path) -> Result<String, String> {
         |name: &str| std::fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"));
     let [groove, hulls, bracket] = [read("groove.msw")?, read("hulls.msw")?, read("bracket.msw")?];
     let [torus, fence] = [read("torus.msw")?, read("fence.msw")?];
-    let [field, bend] = [read("field.msw")?, read("bend.msw")?];
-    lines(&groove, &hulls, &bracket, &torus, &fence, &field, &bend)
+    let [field, both, bend] = [read("field.msw")?, read("both.msw")?, read("bend.msw")?];
+    lines(&groove, &hulls, &bracket, &torus, &fence, [&field, &both], &bend)
         .map_err(|error| error.to_string())
 }

@@ -4,11 +4,13 @@
 use std::fs;
 use std::path::Path;
 
+use meshsweep::Builder;
+use meshsweep::builder::For;
 use meshsweep::bvh::{TreeOptions, build};
 use meshsweep::curve::{self, CurveOptions};
 use meshsweep::emit::source::{SourceNames, c_header, c_source, rust_module};
 use meshsweep::hull::{self, BuildOptions, Levels};
-use meshsweep::mesh::{KeyFrame, Mesh};
+use meshsweep::mesh::{KeyFrame, Mesh, RawMesh};
 use meshsweep::progress::Watch;
 use meshsweep::sdf::{self, SdfOptions};
 use meshsweep::tight::{self, ChainOptions};
@@ -44,6 +46,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
         ("hulls", &tight),
         ("fence", &fence),
         ("field", &groove_field()),
+        ("both", &groove_both()),
         ("bend", &bend),
     ];
     for (name, blob) in blobs {
@@ -84,6 +87,19 @@ fn field_of_groove(options: &SdfOptions) -> Vec<u8> {
     let (positions, triangles) = groove_block();
     let mesh = Mesh::new(positions, triangles);
     sdf::build(mesh.as_input(), options, Watch::NONE).expect("an area").0.to_bytes()
+}
+
+/// The box tree and a distance field of the block with a slot, small enough for the smallest board.
+///
+/// # Panics
+/// Never: the mesh has an area.
+#[must_use]
+pub fn groove_both() -> Vec<u8> {
+    let (positions, triangles) = groove_block();
+    let builder =
+        Builder::new().serve_all([For::Closest, For::Segment, For::Sdf]).sdf_bytes(4 << 10);
+    let built = builder.build(RawMesh::from_f32(&positions, &triangles));
+    built.expect("an area").into_bytes()
 }
 
 /// The hierarchy for sweeps of a small torus with a hole in place of every fifth triangle.

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use meshsweep::curve::{CurveOptions, build, read_csv};
 use meshsweep::progress::Watch;
 use meshsweep_core::{
-    Blob, Budget, Bvh, Curve, DeformableHull, Hull, Sdf, SdfKind, TightHulls, Triboxes,
+    Blob, Budget, Bvh, BvhWithSdf, Curve, DeformableHull, Hull, Sdf, SdfKind, TightHulls, Triboxes,
 };
 use meshsweep_counted::answers::{of_fixtures, of_kept};
 use meshsweep_host_tests::golden::{
-    bending_torus, bracket_hulls, bracket_model, fence_curves, groove_field, groove_tree, sources,
-    torus_sieve, torus_triboxes,
+    bending_torus, bracket_hulls, bracket_model, fence_curves, groove_both, groove_field,
+    groove_tree, sources, torus_sieve, torus_triboxes,
 };
 use meshsweep_host_tests::picture;
 
@@ -122,6 +122,15 @@ fn committed_field_is_what_the_builder_makes() {
 }
 
 #[test]
+fn committed_tree_with_a_field_is_what_the_builder_makes() {
+    let bytes = read("both.msw");
+    assert!(bytes == groove_both(), "fixtures/both.msw is out of date: run `cargo xtask fixtures`");
+    let both = BvhWithSdf::open(&bytes).expect("opens");
+    assert!(both.tree().serves_distances() && both.tree().serves_segments());
+    assert_eq!(both.field().kind(), SdfKind::Signed);
+}
+
+#[test]
 fn the_fence_of_the_example_is_what_the_builder_makes_of_its_csv() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../core/examples/fence/src");
     let read = |name: &str| std::fs::read(folder.join(name)).expect("the example has it");
@@ -156,6 +165,7 @@ fn committed_bend_is_what_the_builder_makes() {
 fn the_core_packs_the_same_blobs() {
     for name in [
         "bend.msw",
+        "both.msw",
         "bracket.msw",
         "fence.msw",
         "field.msw",

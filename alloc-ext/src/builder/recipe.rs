@@ -23,6 +23,10 @@ pub enum Recipe {
     Tight(u32),
     /// At most so many triboxes.
     Triboxes(u32),
+    /// A distance field of so many bytes: signed, if the mesh is closed.
+    Sdf(u32),
+    /// The same and a box tree for distances.
+    TreeWithSdf(u32),
 }
 
 impl Recipe {
@@ -41,6 +45,12 @@ impl Recipe {
                 ..serving(For::Tight)
             },
             Self::Triboxes(count) => Options { triboxes: Some(count), ..serving(For::Triboxes) },
+            Self::Sdf(bytes) => Options { sdf_bytes: Some(bytes), ..serving(For::Sdf) },
+            Self::TreeWithSdf(bytes) => Options {
+                asked: vec![For::Closest, For::Sdf],
+                sdf_bytes: Some(bytes),
+                ..Options::default()
+            },
         }
     }
 
@@ -53,6 +63,8 @@ impl Recipe {
             Self::CutLevel(error) => format!("cut level, error {error}"),
             Self::Tight(faces) => format!("tight hull, {faces} faces"),
             Self::Triboxes(count) => format!("triboxes, {count}"),
+            Self::Sdf(bytes) => format!("distance field, {bytes} bytes"),
+            Self::TreeWithSdf(bytes) => format!("field first, {bytes} bytes"),
         }
     }
 }

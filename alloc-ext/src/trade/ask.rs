@@ -1,11 +1,12 @@
 //! The answers of a setting, the work that they took, and the time of this machine.
 
 use super::cost::{Features, Shape};
+use super::field::to_surface;
 use super::setting::{How, Question, Setting};
 use crate::builder::Recipe;
 use crate::distances::Distances;
 use meshsweep_core::{
-    Blob, Budget, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Hint, QueryError,
+    Blob, Budget, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Hint, Interval, QueryError,
     ScratchEntry, Work,
 };
 use std::hint::black_box;
@@ -23,8 +24,10 @@ pub(super) struct Answer {
     pub upper: f64,
     /// Whether a segment is proved neither clear nor to meet the mesh.
     pub is_undecided: bool,
-    /// What its cost is predicted from.
-    pub features: Features,
+    /// What the cost of a search is predicted from. `None`: there was none, the field was enough.
+    pub features: Option<Features>,
+    /// The same of a look-up before the search, in the field of a box tree.
+    pub look_up: Option<Features>,
 }
 
 /// What all queries answered.
@@ -147,8 +150,38 @@ pub(super) fn ask(
                 Ok(Told { ends, work: bound.work, is_undecided: false })
             })
         }
+        Recipe::Sdf(_) => {
+            let field = blob.sdf()?;
+            let of = Of { budget, shape: Shape::of_field(&field), scratch: 0 };
+            twice(points, &of, |[p]| {
+                let found = to_surface(&field, field.distance(p)?.distance);
+                let ends = [f64::from(found.lower), f64::from(found.upper)];
+                Ok(Told { ends, work: Work::NONE, is_undecided: false })
+            })
+        }
+        Recipe::TreeWithSdf(_) => {
+            let both = blob.bvh_with_sdf()?;
+            let mut stack = entries(setting, both.tree().scratch_entries_for(budget));
+            let scratch = size_of_val(stack.as_slice());
+            let of = Of { budget, shape: Shape::of_tree(both.tree()), scratch };
+            let mut asked = twice(points, &of, |[p]| {
+                let found = both.distance_bounds(p, budget, &mut stack)?;
+                let ends = [f64::from(found.distance.lower), f64::from(found.distance.upper)];
+                Ok(Told { ends, work: found.work, is_undecided: false })
+            })?;
+            let shape = Shape::of_field(both.field());
+            for (answer, place) in asked.answers.iter_mut().zip(points) {
+                answer.look_up = Some(shape.features(place, &budget, &Work::NONE));
+                let was_asked = |features: &Features| features[OPENED] > 0.0;
+                answer.features = answer.features.filter(was_asked);
+            }
+            Ok(asked)
+        }
     }
 }
+
+/// The feature that counts opened nodes.
+const OPENED: usize = 5;
 
 fn entries(setting: &Setting, enough: usize) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; setting.entries.unwrap_or(enough).min(enough).max(1)]
@@ -246,8 +279,8 @@ fn first<const N: usize>(
 ) -> Result<Asked, QueryError> {
     let answers = places.iter().map(|&place| {
         let Told { ends: [lower, upper], work, is_undecided } = one(place)?;
-        let features = of.shape.features(&place, &of.budget, &work);
-        Ok(Answer { lower, upper, is_undecided, features })
+        let features = Some(of.shape.features(&place, &of.budget, &work));
+        Ok(Answer { lower, upper, is_undecided, features, look_up: None })
     });
     let answers = answers.collect::<Result<Vec<_>, QueryError>>()?;
     Ok(Asked { answers, nanoseconds: 0.0, scratch: of.scratch })

@@ -6,7 +6,7 @@
 //! prints the error on meshes that the fit has not seen.
 
 use crate::emit::source::stack_bound;
-use meshsweep_core::{Budget, Bvh, Hull, TightHull, Triboxes, Work};
+use meshsweep_core::{Budget, Bvh, Hull, Sdf, TightHull, Triboxes, Work};
 
 /// A processor whose instructions are predicted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,10 +62,12 @@ pub enum Search {
     PairOfTrees,
     /// Whether triboxes prove that two models are farther than a distance.
     PairOfTriboxes,
+    /// The distance of a distance field: one look-up, whose cost is known by its construction.
+    Field,
 }
 
 impl Search {
-    /// All of them.
+    /// All whose costs are fitted.
     pub const ALL: [Self; 14] = [
         Self::Tree,
         Self::TreeF32,
@@ -104,6 +106,7 @@ impl Search {
             Self::FirstHitOfHull => "first hit of a hull",
             Self::PairOfTrees => "distance of two models",
             Self::PairOfTriboxes => "within of triboxes",
+            Self::Field => "distance of a field",
         }
     }
 
@@ -125,6 +128,7 @@ impl Search {
             Self::FirstHitOfHull => "first hit, hull",
             Self::PairOfTrees => "pair of trees",
             Self::PairOfTriboxes => "pair of triboxes",
+            Self::Field => "distance field",
         }
     }
 }
@@ -175,6 +179,13 @@ impl Shape {
     #[must_use]
     pub fn of_tight(hull: &TightHull<'_>) -> Self {
         Self::of_tree(hull.bvh())
+    }
+
+    /// Of a distance field.
+    #[must_use]
+    pub fn of_field(field: &Sdf<'_>) -> Self {
+        let [low, high] = field.bounds();
+        Self { low, high, leaf: f64::INFINITY }
     }
 
     /// Of triboxes. Every place counts as inside of turned ones.

@@ -1,10 +1,13 @@
-//! The fitted costs, by board and search.
+//! The costs, by board and search.
 
 use super::cost::{Board, Cost, Search};
 use super::costs::COSTS;
 
-/// The fitted costs of a search on a board.
+/// The costs of a search on a board: fitted, or those of a look-up.
 #[must_use]
 pub fn cost(board: Board, search: Search) -> Option<&'static Cost> {
+    if search == Search::Field {
+        return Some(super::field::cost(board));
+    }
     COSTS.iter().find(|(b, s, _)| (*b, *s) == (board, search)).map(|(.., cost)| cost)
 }

@@ -1,9 +1,10 @@
 //! Rows: each setting with its errors and costs, and which of them nothing else beats.
 
-use super::ask::{Asked, ask};
+use super::ask::{Answer, Asked, ask};
 use super::blobs::{NotBuilt, build_group};
-use super::cost::{Board, Cost};
-use super::fitted::cost;
+use super::cost::{Board, Cost, Search};
+use super::field;
+use super::fitted::cost as fitted_cost;
 use super::setting::{Question, Setting};
 use super::truth::Truth;
 use crate::builder::{Built, Recipe};
@@ -106,6 +107,8 @@ pub struct Row {
     pub scratch: usize,
     /// Nodes, triangles, exact evaluations and splits of a mean query.
     pub work: [f64; 4],
+    /// The part of the queries that the field answered alone, of a box tree with a field.
+    pub by_field: Option<f64>,
 }
 
 impl Row {
@@ -266,13 +269,27 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
     let each = |of: &dyn Fn(usize) -> f64| Spread::of((0..answers.len()).map(of).collect());
     let is_bounded = answers.iter().all(|answer| answer.upper.is_finite());
     let boards = Board::ALL.map(|board| {
-        let cost = cost(board, setting.search())?;
-        let all: Vec<f64> = answers.iter().map(|answer| cost.of(&answer.features)).collect();
-        Some(Instructions::of(cost, setting.search().stack(board), &all))
+        let cost = fitted_cost(board, setting.search())?;
+        let look_up = fitted_cost(board, Search::Field)?;
+        let of = |answer: &Answer| {
+            let searched = answer.features.as_ref().map_or(0.0, |features| cost.of(features));
+            searched + answer.look_up.as_ref().map_or(0.0, |features| look_up.of(features))
+        };
+        let all: Vec<f64> = answers.iter().map(of).collect();
+        let mut found = Instructions::of(cost, setting.search().stack(board), &all);
+        if setting.search() == Search::Field {
+            found.most = field::most(board);
+        }
+        Some(found)
     });
     let mean = |feature: usize| {
-        answers.iter().map(|answer| answer.features[feature]).sum::<f64>() / answers.len() as f64
+        let of = |answer: &Answer| answer.features.map_or(0.0, |features| features[feature]);
+        answers.iter().map(of).sum::<f64>() / answers.len() as f64
     };
+    let part = |is: fn(&Answer) -> bool| {
+        answers.iter().filter(|answer| is(answer)).count() as f64 / answers.len().max(1) as f64
+    };
+    let is_of_both = answers.iter().any(|answer| answer.look_up.is_some());
     Some(Row {
         setting,
         guaranteed: each(&|i| upper(i) - lower(i)).filter(|_| is_bounded),
@@ -285,6 +302,7 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
         flash: built.bytes().len(),
         scratch: *scratch,
         work: [2, 3, 4, 5].map(mean),
+        by_field: is_of_both.then(|| part(|answer| answer.features.is_none())),
     })
 }
 

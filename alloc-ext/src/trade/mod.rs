@@ -13,6 +13,7 @@
 //! | `ask` | the answers of a setting, their work, and the time of this machine |
 //! | `truth` | the distance from every triangle, and where a segment meets one, in f64; it shares no code with queries |
 //! | `cost` | instructions of a board from the work of a query |
+//! | `field` | the cost of a look-up in a distance field, which is not fitted |
 //! | `costs`, `fitted` | the fitted numbers, written by `cargo xtask fit`; looked up |
 //! | `measure` | the rows, and which of them nothing else beats |
 //! | `pairs` | two models that keep a distance: structures, verdicts and costs |
@@ -26,6 +27,7 @@ mod ask;
 mod blobs;
 mod cost;
 mod costs;
+mod field;
 mod fitted;
 mod limits;
 mod measure;

@@ -64,8 +64,8 @@ impl Setting {
         /// Sets the [budget](Self::budget).
         with_budget: Budget => budget,
         /// Sets [what a query takes over from the one before](Self::how). Sweeps know
-        /// [`How::Fresh`] and [`How::Coherent`]; any other is asked as `Fresh`. Tight hulls and
-        /// triboxes know `Fresh` alone.
+        /// [`How::Fresh`] and [`How::Coherent`]; any other is asked as `Fresh`. Tight hulls,
+        /// triboxes and distance fields know `Fresh` alone.
         with_how: How => how,
     }
 
@@ -113,6 +113,9 @@ impl Setting {
             (Recipe::Sweep(_) | Recipe::CutLevel(_), _) => Search::Sweep,
             (Recipe::Tight(_), _) => Search::Tight,
             (Recipe::Triboxes(_), _) => Search::Triboxes,
+            (Recipe::Sdf(_), _) => Search::Field,
+            // Where the field is not enough.
+            (Recipe::TreeWithSdf(_), _) => Search::Tree,
         }
     }
 
@@ -125,7 +128,8 @@ impl Setting {
             Recipe::Sweep(bits) => matches!(bits, VertexBits::F32),
             Recipe::Tight(faces) => faces == 200,
             Recipe::Triboxes(count) => count == 64,
-            Recipe::CutLevel(_) => false,
+            Recipe::Sdf(_) => true,
+            Recipe::CutLevel(_) | Recipe::TreeWithSdf(_) => false,
         };
         is_of_fit && self.entries.is_none()
     }
@@ -170,6 +174,9 @@ impl fmt::Display for Setting {
 /// two coarsest.
 const FACES: [u32; 7] = [20, 50, 100, 200, 500, 1000, 2000];
 
+/// Bytes of the distance fields that are measured.
+const FIELDS: [u32; 2] = [2 << 10, 8 << 10];
+
 /// The settings that are measured by default, for a mesh of this diagonal and so many triangles.
 /// Coherent queries are among them if the points are a path, or the caller's own.
 #[must_use]
@@ -199,6 +206,10 @@ pub fn standard(diagonal: f64, triangles: usize, points: Option<Points>) -> Vec<
         all.extend([4, 8].map(|steps| hull.with_budget(exact.with_steps(steps))));
     }
     all.extend([8, 64].map(|count| Setting::new(Recipe::Triboxes(count))));
+    all.extend(FIELDS.map(|bytes| Setting::new(Recipe::Sdf(bytes))));
+    let both = Setting::new(Recipe::TreeWithSdf(FIELDS[1]));
+    all.push(both.with_budget(exact.with_relative(0.1)));
+    all.push(both.with_budget(exact.with_absolute(near(0.01))));
     all.extend([0.05, 0.01].map(|part| Setting::new(Recipe::CutLevel(near(part)))));
     let bits = [VertexBits::Grid16, VertexBits::Grid24, VertexBits::F32];
     all.extend(bits.map(|bits| Setting::new(Recipe::Sweep(bits))));

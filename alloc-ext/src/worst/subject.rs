@@ -157,7 +157,7 @@ fn instructions(
         Distances::Hull(hull) if is_hit => (trade::Search::FirstHitOfHull, Shape::of_hull(hull)),
         Distances::Hull(hull) => (trade::Search::Sweep, Shape::of_hull(hull)),
         Distances::Tight(hull) => (trade::Search::Tight, Shape::of_tight(hull)),
-        Distances::Curve(_) => return None,
+        Distances::TreeWithField(_) | Distances::Curve(_) => return None,
     };
     let features = shape.features(place, budget, work);
     let [m4f, m0] = Board::ALL.map(|board| trade::cost(board, search));

@@ -12,6 +12,7 @@ mod deform;
 mod distances;
 mod emit;
 mod errors;
+mod field_first;
 mod formats;
 mod hausdorff;
 mod hull;

@@ -146,6 +146,7 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 #define MSW_TRIBOXES_WORDS 16
 #define MSW_CURVE_WORDS 24
 #define MSW_SDF_WORDS 15
+#define MSW_BOTH_WORDS 51
 #define MSW_DEFORM_WORDS 56
 #define MSW_SCENE_MODEL_ENTRIES 56
 #else
@@ -156,6 +157,7 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 #define MSW_TRIBOXES_WORDS 20
 #define MSW_CURVE_WORDS 40
 #define MSW_SDF_WORDS 24
+#define MSW_BOTH_WORDS 76
 #define MSW_DEFORM_WORDS 72
 #define MSW_SCENE_MODEL_ENTRIES 88
 #endif
@@ -166,15 +168,17 @@ enum { MSW_MOTION_STRAIGHT = 0, MSW_MOTION_SCREW = 1 };
 #define MSW_MOVED_SWEEP_WORDS 144
 
 /* An opened box tree, an opened tight hull, an opened hull hierarchy, opened triboxes, opened
- * curves, an opened distance field, an opened hull hierarchy that deforms. They point into the
- * blob, which must stay where it is, unchanged, as long as they are used. Copies are as good. A
- * storage of zeros is not opened, and every question about it is refused. */
+ * curves, an opened distance field, an opened box tree with a distance field, an opened hull
+ * hierarchy that deforms. They point into the blob, which must stay where it is, unchanged, as long
+ * as they are used. Copies are as good. A storage of zeros is not opened, and every question about
+ * it is refused. */
 typedef struct { uintptr_t opaque[MSW_MODEL_WORDS]; } msw_model;
 typedef struct { uintptr_t opaque[MSW_TIGHT_WORDS]; } msw_tight;
 typedef struct { uintptr_t opaque[MSW_HULL_WORDS]; } msw_hull;
 typedef struct { uintptr_t opaque[MSW_TRIBOXES_WORDS]; } msw_triboxes;
 typedef struct { uintptr_t opaque[MSW_CURVE_WORDS]; } msw_curve;
 typedef struct { uintptr_t opaque[MSW_SDF_WORDS]; } msw_sdf;
+typedef struct { uintptr_t opaque[MSW_BOTH_WORDS]; } msw_both;
 typedef struct { uintptr_t opaque[MSW_DEFORM_WORDS]; } msw_deform;
 
 /* What a query that moves keeps between calls. Zero it before the first call, or to start anew. It
@@ -463,6 +467,20 @@ typedef struct {
     int32_t lower; /* not above the distance, units of the field */
     int32_t upper; /* not below it */
 } msw_sdf_units;
+
+typedef struct {
+    msw_interval distance; /* to the surface */
+    int32_t ended;         /* MSW_ENDED_...: tolerance also if the field is narrow enough */
+    msw_work work;         /* of the tree: none if the field answered alone */
+} msw_bounds_answer;
+
+typedef struct {
+    int32_t side;          /* MSW_SIDE_... */
+    int32_t reason;        /* MSW_REASON_... */
+    msw_interval distance; /* signed, negative inside */
+    int32_t ended;         /* as above */
+    msw_work work;
+} msw_signed_bounds_answer;
 
 typedef struct {
     int32_t verdict; /* MSW_YES, MSW_NO or MSW_UNDECIDED */
@@ -979,6 +997,51 @@ int32_t msw_sdf_distance_in_units(const msw_sdf *field, const int32_t place[3],
 /* The gradient at a place, in 2^-15. MSW_ERROR_OUT_OF_DOMAIN: outside of the field. */
 int32_t msw_sdf_gradient_in_units(const msw_sdf *field, const int32_t place[3],
                                   int32_t gradient[3]);
+
+/* ---- Box tree with distance field, which is asked first: build --for closest,segment,sdf ---- */
+
+/* Opens box tree and distance field of one blob. As msw_open. */
+int32_t msw_open_both(msw_both *both, const void *bytes, size_t count);
+
+/* As msw_scratch_entries. */
+uint32_t msw_both_scratch_entries(const msw_both *both);
+
+/* As msw_within. If the field's interval does not hold `distance`, the field answers alone: the
+ * work is 0, and MSW_YES has no triangle. Else the tree answers. Only the surface counts. */
+int32_t msw_both_within(const msw_both *both, const float point[3], float distance,
+                        const msw_budget *budget,
+                        msw_scratch_entry *scratch, size_t scratch_count,
+                        msw_within_answer *answer);
+
+/* Bounds of the distance of `point` from the surface, to the tolerance of the budget. If the
+ * field's interval meets the tolerance, it is the answer. Else the tree searches between its ends.
+ */
+int32_t msw_both_distance(const msw_both *both, const float point[3],
+                          const msw_budget *budget,
+                          msw_scratch_entry *scratch, size_t scratch_count,
+                          msw_bounds_answer *answer);
+
+/* The same with a sign and a side. Where the field does not tell the side, the tree searches it
+ * without a tolerance, as msw_signed_distance. */
+int32_t msw_both_signed_distance(const msw_both *both, const float point[3],
+                                 const msw_budget *budget,
+                                 msw_scratch_entry *scratch, size_t scratch_count,
+                                 msw_signed_bounds_answer *answer);
+
+/* As msw_closest_point. The field's interval shortens the search. */
+int32_t msw_both_closest_point(const msw_both *both, const float point[3],
+                               const msw_budget *budget,
+                               msw_scratch_entry *scratch, size_t scratch_count,
+                               msw_closest *answer);
+
+/* As msw_solid_first_contact. If the field proves that the motion of a sphere or a capsule is
+ * clear, it answers alone. Else the tree answers. */
+int32_t msw_both_solid_first_contact(const msw_both *both,
+                                     const float *from, const float *to, size_t corner_count,
+                                     float radius,
+                                     const msw_budget *budget,
+                                     msw_scratch_entry *scratch, size_t scratch_count,
+                                     msw_hit *answer);
 
 /* ---- Curves: fences and tool paths, built from .csv ---- */
 

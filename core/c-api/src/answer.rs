@@ -5,9 +5,10 @@
 
 use meshsweep_core::{
     AllWithin, ClosestPoint, CoherentClosest, CurveClosest, CurveNeighbor, CurveSegment,
-    CurveSignedDistance, Decided, Ended, FieldDistance, FirstHit, Interval, KNearest, Neighbor,
-    NodePair, PairContact, PairDistance, Separation, Side, SignedDistance, TriboxBound,
-    TriboxCandidates, Undecided, UnitDistance, Verdict, WindingNumber, Work,
+    CurveSignedDistance, Decided, DistanceBounds, Ended, FieldDistance, FirstHit, Interval,
+    KNearest, Neighbor, NodePair, PairContact, PairDistance, Separation, Side, SignedBounds,
+    SignedDistance, TriboxBound, TriboxCandidates, Undecided, UnitDistance, Verdict, WindingNumber,
+    Work,
 };
 
 /// `MSW_NO_TRIANGLE`.
@@ -70,6 +71,8 @@ answers! {
     FieldC { side: i32, reason: i32, distance: IntervalC }
     FieldGradientC { found: FieldC, gradient: [f32; 3] }
     UnitsC { lower: i32, upper: i32 }
+    BoundsC { distance: IntervalC, ended: i32, work: WorkC }
+    SignedBoundsC { side: i32, reason: i32, distance: IntervalC, ended: i32, work: WorkC }
     VerdictC { verdict: i32, reason: i32 }
     RefinementC { is_complete: u32, error_left: f32, faces: u32, performed: u32, undone: u32 }
     FaceC { corners: [[f32; 3]; 3], error: f32 }
@@ -138,6 +141,29 @@ impl From<FieldDistance> for FieldC {
     fn from(found: FieldDistance) -> Self {
         let (side, reason) = side(found.side);
         FieldC { side, reason, distance: found.distance.into() }
+    }
+}
+
+impl From<DistanceBounds> for BoundsC {
+    fn from(found: DistanceBounds) -> Self {
+        BoundsC {
+            distance: found.distance.into(),
+            ended: ended(found.ended),
+            work: found.work.into(),
+        }
+    }
+}
+
+impl From<SignedBounds> for SignedBoundsC {
+    fn from(found: SignedBounds) -> Self {
+        let (side, reason) = side(found.side);
+        SignedBoundsC {
+            side,
+            reason,
+            distance: found.distance.into(),
+            ended: ended(found.ended),
+            work: found.work.into(),
+        }
     }
 }
 

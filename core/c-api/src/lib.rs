@@ -6,7 +6,7 @@
 //! | `error` | negative numbers and their texts |
 //! | `question`, `answer` | structures of the header |
 //! | `ask` | the questions' common part, and the macro of their rows |
-//! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `curve`, `sdf`, `pose` | the functions |
+//! | `tree`, `pair`, `scene`, `triboxes`, `tight`, `curve`, `sdf`, `both`, `pose` | the functions |
 //! | `hull`, `sweep`, `deform` | those of hull hierarchies, of sweeps, of meshes that deform |
 //!
 //! This crate has no panic handler, so that the workspace builds and tests it like the others.
@@ -16,6 +16,7 @@
 
 pub mod answer;
 mod ask;
+pub mod both;
 pub mod curve;
 pub mod deform;
 pub mod error;

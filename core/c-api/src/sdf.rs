@@ -12,7 +12,7 @@ pub const SDF_WORDS: usize = if cfg!(target_pointer_width = "64") { 15 } else { 
 pub type SdfStorage = Storage<Sdf<'static>, SDF_WORDS>;
 
 impl View for Sdf<'static> {
-    const TAG: usize = 0x6d73_7709;
+    const TAG: usize = 0x6d73_770f;
 }
 
 // SAFETY: integers.

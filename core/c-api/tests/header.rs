@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use meshsweep_c::answer::*;
+use meshsweep_c::both::{BOTH_WORDS, BothStorage};
 use meshsweep_c::curve::{CURVE_WORDS, CurveStorage};
 use meshsweep_c::deform::{DEFORM_WORDS, DeformStorage, MOVED_WORDS, MovedStorage};
 use meshsweep_c::error::Error;
@@ -60,6 +61,7 @@ fn layouts() -> String {
         "msw_triboxes": TriboxesStorage {}
         "msw_curve": CurveStorage {}
         "msw_sdf": SdfStorage {}
+        "msw_both": BothStorage {}
         "msw_deform": DeformStorage {}
         "msw_moved": MovedStorage {}
         "msw_moved_vertex": MovedVertex {}
@@ -109,6 +111,8 @@ fn layouts() -> String {
         "msw_sdf_answer": FieldC { side, reason, distance }
         "msw_sdf_gradient_answer": FieldGradientC { found, gradient }
         "msw_sdf_units": UnitsC { lower, upper }
+        "msw_bounds_answer": BoundsC { distance, ended, work }
+        "msw_signed_bounds_answer": SignedBoundsC { side, reason, distance, ended, work }
         "msw_verdict_answer": VerdictC { verdict, reason }
         "msw_tribox_bound": TriboxBoundC { lower, node, ended, work }
         "msw_refinement": RefinementC { is_complete, error_left, faces, performed, undone }
@@ -128,6 +132,7 @@ fn constants() -> String {
     holds(&mut text, "MSW_TRIBOXES_WORDS", TRIBOXES_WORDS);
     holds(&mut text, "MSW_CURVE_WORDS", CURVE_WORDS);
     holds(&mut text, "MSW_SDF_WORDS", SDF_WORDS);
+    holds(&mut text, "MSW_BOTH_WORDS", BOTH_WORDS);
     holds(&mut text, "MSW_DEFORM_WORDS", DEFORM_WORDS);
     holds(&mut text, "MSW_MOVED_WORDS", MOVED_WORDS);
     holds(&mut text, "MSW_SWEEP_WORDS", SWEEP_WORDS);
@@ -252,6 +257,7 @@ fn the_table_of_storage_is_that_of_rust() {
         ("msw_triboxes", TRIBOXES_WORDS),
         ("msw_curve", CURVE_WORDS),
         ("msw_sdf", SDF_WORDS),
+        ("msw_both", BOTH_WORDS),
         ("msw_coherent", COHERENT_WORDS),
         ("msw_coherent_pair", PAIR_WORDS),
         ("msw_deform", DEFORM_WORDS),

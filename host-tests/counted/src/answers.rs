@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use meshsweep_suite::ask::{
-    Refused, Subject, apart, curve, deform, hull, hull_moving, sdf, tight, tree, triboxes,
+    Refused, Subject, apart, both, curve, deform, hull, hull_moving, sdf, tight, tree, triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::{Kind, Observer, Plan, Recorder, run};
@@ -14,13 +14,14 @@ use meshsweep_suite::{Kind, Observer, Plan, Recorder, run};
 type Answers = fn(&str, &[u8]) -> Result<String, Refused>;
 
 /// The committed blobs of today's builder, by the structure that is asked.
-const FIXTURES: [(&str, Answers); 8] = [
+const FIXTURES: [(&str, Answers); 9] = [
     ("bracket.msw", hull_answers),
     ("groove.msw", tree_answers),
     ("torus.msw", |name, blob| answers::<triboxes::Triboxes<'_>>(name, blob)),
     ("hulls.msw", |name, blob| answers::<tight::Hulls<'_>>(name, blob)),
     ("fence.msw", |name, blob| answers::<curve::Curve<'_>>(name, blob)),
     ("field.msw", |name, blob| answers::<sdf::Sdf<'_>>(name, blob)),
+    ("both.msw", |name, blob| answers::<both::BvhWithSdf<'_>>(name, blob)),
     ("sieve.msw", hull_answers),
     ("bend.msw", |name, blob| answers::<deform::DeformableHull<'_>>(name, blob)),
 ];

@@ -6,7 +6,7 @@
 //! Each kind of query ends with a dump, so one run of the simulator counts all kinds.
 
 use meshsweep_suite::ask::{
-    Refused, apart, curve, deform, hull, hull_moving, sdf, tight, tree, triboxes,
+    Refused, apart, both, curve, deform, hull, hull_moving, sdf, tight, tree, triboxes,
 };
 use meshsweep_suite::{Kind, Observer, Plan, Recorder, run};
 
@@ -32,6 +32,7 @@ pub fn ask(image: &str, blob: &[u8], blocks: u32) -> Result<String, String> {
         "suite_tight" => run::<tight::Hulls<'_>>(blob, plan, &mut tight::Scratch::new(), to),
         "suite_curve" => run::<curve::Curve<'_>>(blob, plan, &mut curve::Scratch::new(), to),
         "suite_sdf" => run::<sdf::Sdf<'_>>(blob, plan, &mut sdf::Scratch::new(), to),
+        "suite_both" => run::<both::BvhWithSdf<'_>>(blob, plan, &mut both::Scratch::new(), to),
         "suite_deform" => {
             run::<deform::DeformableHull<'_>>(blob, plan, &mut deform::Scratch::new(), to)
         }

@@ -111,6 +111,7 @@ fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
         }
         Search::Tight => Recipe::Tight(200),
         Search::Triboxes | Search::PairOfTriboxes => Recipe::Triboxes(64),
+        Search::Field => return None,
     };
     let source = Source::of(raw, None).ok()?;
     let built = trade::build(recipe, &source, &source.repaired().ok()?);
@@ -229,7 +230,7 @@ fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
         Search::FirstHitOfHull => {
             vec![(Far, exact), (Near, exact), (Path, exact), (Far, steps(32))]
         }
-        Search::PairOfTrees | Search::PairOfTriboxes => Vec::new(),
+        Search::PairOfTrees | Search::PairOfTriboxes | Search::Field => Vec::new(),
         Search::Tight => vec![(Far, exact), (Near, exact), (Near, steps(8)), (Far, steps(4))],
     }
 }
@@ -245,6 +246,7 @@ fn question(search: Search, budget: Budget) -> Question {
         Search::Tight => Question::Tight(budget),
         Search::FirstHit | Search::FirstHitF32 => Question::FirstHit(budget),
         Search::FirstHitOfHull => Question::FirstHitOfHull(budget),
+        Search::Field => Question::Field,
         Search::Triboxes | Search::PairOfTrees | Search::PairOfTriboxes => {
             Question::Triboxes(budget)
         }

@@ -5,9 +5,10 @@ use std::path::Path;
 
 use glam::Vec3;
 use meshsweep::mesh::Mesh;
-use meshsweep_core::{Blob, Budget, Hull, Sdf, VertIdx};
+use meshsweep_core::{Blob, Budget, Hull, ScratchEntry, Sdf, VertIdx};
 use meshsweep_suite::ask::placed::{self, Question};
 
+use crate::generate::Rng;
 use crate::workload::{Points, Subject, points};
 
 /// A step of the point that a refined hull follows, as a part of the diagonal.
@@ -25,6 +26,10 @@ const STEP: f32 = 1e-3;
 ///   hull, by a thousandth of the diagonal each; radius and error are parts of the diagonal.
 /// - `field BLOB`, `units BLOB`: the distance of a field at points within it, in input units and in
 ///   whole units.
+/// - `within BLOB PART`, `within-both BLOB PART`: whether the box tree, alone or with the field, is
+///   within such a part of the diagonal, at points up to a tenth of it from the surface.
+/// - `near BLOB RELATIVE`, `near-both BLOB RELATIVE`, `bounds-both BLOB RELATIVE`: closest points of
+///   the box tree, alone or with the field, and bounds of the distance, at the same points.
 ///
 /// # Errors
 /// A blob that is missing or refused, or numbers that are none.
@@ -68,6 +73,24 @@ pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u
             let places: Vec<_> = wholes.map(|whole| whole.map(|x| x as f32)).collect();
             Ok(written(Question::FieldInUnits, &bytes, &[], &places))
         }),
+        ["within" | "within-both", blob, part] => read(blob).and_then(|bytes| {
+            let bounds = of(&bytes, |blob| Ok(blob.bvh()?.bounds()))?;
+            let distance = number(part)? * diagonal(bounds);
+            let question = match words.first() {
+                Some(&"within") => Question::Within(distance),
+                _ => Question::WithinOfBoth(distance),
+            };
+            Ok(written(question, &bytes, &[], &near(&bytes, count)?))
+        }),
+        ["near" | "near-both" | "bounds-both", blob, relative] => read(blob).and_then(|bytes| {
+            let budget = Budget::EXACT.with_relative(number(relative)?);
+            let question = match words.first() {
+                Some(&"near") => Question::Tree(budget),
+                Some(&"near-both") => Question::ClosestOfBoth(budget),
+                _ => Question::BoundsOfBoth(budget),
+            };
+            Ok(written(question, &bytes, &[], &near(&bytes, count)?))
+        }),
         _ => return None,
     };
     Some(laid)
@@ -89,6 +112,21 @@ fn diagonal([least, greatest]: [[f32; 3]; 2]) -> f32 {
 fn far(bounds: [[f32; 3]; 2], count: usize) -> Vec<[f32; 3]> {
     let corners = Subject::of("box", Mesh::new(bounds.to_vec(), Vec::new()));
     points(&corners, Points::Far, count)
+}
+
+/// Points at most a tenth of the diagonal from the surface of a box tree.
+fn near(bytes: &[u8], count: usize) -> Result<Vec<[f32; 3]>, String> {
+    let tree = of(bytes, |blob| blob.bvh())?;
+    let bounds = tree.bounds();
+    let mut stack = vec![ScratchEntry::EMPTY; tree.scratch_entries()];
+    let mut rng = Rng::new(77);
+    let moved = |point| {
+        let found = tree.closest_point(point, Budget::EXACT, &mut stack);
+        let surface = Vec3::from_array(found.map_err(|error| error.to_string())?.point);
+        let off = 0.1 * diagonal(bounds) * rng.unit_f64() as f32;
+        Ok((surface + off * Vec3::from_array(rng.direction())).to_array())
+    };
+    far(bounds, count).into_iter().map(moved).collect()
 }
 
 /// Points of a field's box.

@@ -53,6 +53,7 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
          | `hulls.msw` | tight hulls of `bracket.stl` |\n\
          | `fence.msw` | the curves of `fence.csv`, by `meshsweep build fence.csv -o fence.msw --closed` |\n\
          | `field.msw` | the signed distance field of `groove.obj` in 8 KiB |\n\
+         | `both.msw` | the box tree of `groove.obj` and its signed distance field in 4 KiB |\n\
          | `sieve.msw` | the hierarchy for sweeps of a torus with holes |\n\
          | `bend.msw` | the hull hierarchy of `torus(2.0, 0.75, 16, 8)` and a key frame, bent |\n\
          | `answers.txt` | a hash of the answers to each kind of query: other bits are noticed |\n\

@@ -137,6 +137,10 @@ kinds! {
     FieldGradient = 47, "field_gradient", tabled;
     /// The distance of a place far from a field, in whole units.
     FieldBeyond = 48, "field_beyond";
+    /// Bounds of the distance with a tolerance, by the field first.
+    Bounds = 50, "bounds";
+    /// Bounds of the signed distance with a tolerance, by the field first.
+    SignedBounds = 51, "signed_bounds";
 }
 
 impl Kind {

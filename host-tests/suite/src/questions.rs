@@ -141,6 +141,10 @@ pub const QUESTIONS: &[Question] = &[
         .with_variants(&[Kind::FieldBeyond]),
     question("distance and gradient of a field", "sdf", "sdf::gradient", &[Kind::FieldGradient]),
     question("within of a field", "sdf", "sdf::is_within", &[Kind::Within]),
+    question("within, field first", "both", "both::is_within", &[Kind::Within]).with_descents(1),
+    question("bounds, field first", "both", "both::bounded", &[Kind::Bounds]).with_descents(1),
+    question("signed bounds, field first", "both", "both::signed_bounded", &[Kind::SignedBounds])
+        .with_descents(44),
     question("open curves", "curve", "curve::open", &[]),
     question(
         "closest point of curves",

@@ -12,7 +12,7 @@ use arrows::House;
 use source::{collect, root, without_comments};
 
 /// The folders of `core/src`, each with the folders that it may use.
-const CORE: [(&str, &[&str]); 11] = [
+const CORE: [(&str, &[&str]); 12] = [
     ("num", &[]),
     ("geom", &["num"]),
     ("format", &["num", "geom"]),
@@ -23,7 +23,23 @@ const CORE: [(&str, &[&str]); 11] = [
     ("curve", &["num", "geom", "format", "query"]),
     ("sdf", &["num", "format", "query"]),
     ("tight", &["num", "geom", "format", "query", "bvh"]),
-    ("blob", &["num", "geom", "format", "query", "bvh", "hull", "tribox", "curve", "sdf", "tight"]),
+    ("bvh_with_sdf", &["num", "format", "query", "bvh", "sdf"]),
+    (
+        "blob",
+        &[
+            "num",
+            "geom",
+            "format",
+            "query",
+            "bvh",
+            "bvh_with_sdf",
+            "hull",
+            "tribox",
+            "curve",
+            "sdf",
+            "tight",
+        ],
+    ),
 ];
 
 /// Folders that all structures of the builder may use.

@@ -7,3 +7,5 @@ mod options;
 mod proof;
 mod size;
 mod truth;
+mod with_tree;
+mod with_tree_moving;

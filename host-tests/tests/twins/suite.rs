@@ -4,7 +4,7 @@ use super::scenes;
 use meshsweep::hull::BuildOptions;
 use meshsweep_host_tests::generate::corpus::solids;
 use meshsweep_host_tests::golden::{
-    bending_torus, bracket_hulls, fence_curves, tool_path_curve, torus_triboxes,
+    bending_torus, bracket_hulls, fence_curves, groove_both, tool_path_curve, torus_triboxes,
 };
 use meshsweep_host_tests::scene::Scene;
 
@@ -16,7 +16,9 @@ macro_rules! blocks_of {
     ($name:ident, $suite:ident) => {
         mod $name {
             use super::Blocks;
-            use $suite::ask::{apart, curve, deform, hull, hull_moving, tight, tree, triboxes};
+            use $suite::ask::{
+                apart, both, curve, deform, hull, hull_moving, tight, tree, triboxes,
+            };
             use $suite::{Kind, Observer, Plan, Recorder, Subject, run};
 
             #[derive(Default)]
@@ -54,6 +56,7 @@ macro_rules! blocks_of {
                 asked::<triboxes::Triboxes<'_>>(blob, &mut triboxes::Scratch::new(), to);
                 asked::<tight::Hulls<'_>>(blob, &mut tight::Scratch::new(), to);
                 asked::<curve::Curve<'_>>(blob, &mut curve::Scratch::new(), to);
+                asked::<both::BvhWithSdf<'_>>(blob, &mut both::Scratch::new(), to);
                 blocks
             }
         }
@@ -105,6 +108,7 @@ fn all_other_structures_answer_the_suite_as_on_boards() {
         ("fence", fence_curves()),
         ("tool path", tool_path_curve()),
         ("triboxes", torus_triboxes()),
+        ("both", groove_both()),
     ];
     for (name, blob) in blobs {
         assert!(assert_equal(name, &blob) > 4, "{name}");

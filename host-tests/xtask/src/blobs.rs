@@ -37,6 +37,7 @@ pub const APART: Blob = Blob { name: "apart", image: "suite_apart" };
 const MOVING: Blob = Blob { name: "moving", image: "suite_moving" };
 const DEFORM: Blob = Blob { name: "bend", image: "suite_deform" };
 const FIELD: Blob = Blob { name: "field", image: "suite_sdf" };
+const BOTH: Blob = Blob { name: "both", image: "suite_both" };
 const TIGHT: Blob = Blob { name: "tight", image: "suite_tight" };
 
 impl Blob {
@@ -55,9 +56,9 @@ impl Blob {
     }
 
     /// Blobs whose bits are compared beside the standard ones: other formats of vertices, a cut
-    /// blob, an open mesh, a soup of triangles, a box tree that is asked about other bodies, a hull
-    /// that moves, and one that deforms.
-    pub const VARIANTS: [Self; 9] = [
+    /// blob, an open mesh, a soup of triangles, a box tree that is asked about other bodies, one
+    /// with a distance field, a hull that moves, and one that deforms.
+    pub const VARIANTS: [Self; 10] = [
         hull("grid16"),
         hull("grid24"),
         hull("cut"),
@@ -65,6 +66,7 @@ impl Blob {
         tree("single_tree"),
         tree("soup_tree"),
         APART,
+        BOTH,
         MOVING,
         DEFORM,
     ];
@@ -78,7 +80,7 @@ impl Blob {
     /// Whether its image paints the stack with both optimisations.
     #[must_use]
     pub fn is_painted(self) -> bool {
-        self == MOVING || self.is_reported(Flash::Large)
+        self == MOVING || self == BOTH || self.is_reported(Flash::Large)
     }
 
     /// All blobs, each once.
@@ -107,8 +109,10 @@ impl Blob {
     /// a hull hierarchy, compiled for speed, are more than 256 KiB.
     #[must_use]
     pub fn profile(self, flash: Flash) -> Profile {
-        if matches!(self.image, "suite_tree" | "suite_hull" | "suite_apart" | "suite_moving")
-            && flash == Flash::Small
+        if matches!(
+            self.image,
+            "suite_tree" | "suite_hull" | "suite_apart" | "suite_both" | "suite_moving"
+        ) && flash == Flash::Small
         {
             Profile::Small
         } else {

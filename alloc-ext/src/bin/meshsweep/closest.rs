@@ -60,7 +60,8 @@ pub fn run(args: &ClosestArgs) -> Result<(), Failure> {
     question.ask_all(BATCH, &ask, &write)
 }
 
-/// The structure that the options choose; or else the box tree, the hull hierarchy, the finest
+/// The structure that the options choose; or else the box tree, with a tolerance by its distance
+/// field if there is one, the hull hierarchy, the finest
 /// tight hull.
 fn structure<'a>(args: &ClosestArgs, blob: &Blob<'a>) -> Result<Distances<'a>, Failure> {
     let file = &args.input.blob;
@@ -77,7 +78,13 @@ fn structure<'a>(args: &ClosestArgs, blob: &Blob<'a>) -> Result<Distances<'a>, F
         }
     }
     Ok(match served::choose(file, blob, BuildFor::Closest, tree_chosen)? {
-        Engine::Tree(tree) => Distances::Tree(tree),
+        Engine::Tree(tree) => match served::tree_with_field(blob) {
+            // Without a tolerance the field spares nothing.
+            Some(both) if !args.precise && (args.rel > 0.0 || args.abs > 0.0) => {
+                Distances::TreeWithField(both)
+            }
+            _ => Distances::Tree(tree),
+        },
         Engine::Hull(hull) => Distances::Hull(hull),
     })
 }

@@ -3,8 +3,8 @@
 use crate::failure::Failure;
 use meshsweep::distances::{Distances, has_sides};
 use meshsweep_core::{
-    AllOverlaps, Blob, Budget, BuildFor, Bvh, Decided, FrameHull, Hull, Pose, QueryError,
-    ScratchEntry, Sdf, SdfKind, TightHull, TrianglePair, Triboxes,
+    AllOverlaps, Blob, Budget, BuildFor, Bvh, BvhWithSdf, Decided, FrameHull, Hull, Pose,
+    QueryError, ScratchEntry, Sdf, SdfKind, TightHull, TrianglePair, Triboxes,
 };
 use std::path::Path;
 
@@ -137,6 +137,11 @@ pub fn field<'a>(blob: &Blob<'a>) -> Option<Sdf<'a>> {
     blob.sdf().ok().filter(|_| !others)
 }
 
+/// The blob's box tree for distances with its distance field, if it has both.
+pub fn tree_with_field<'a>(blob: &Blob<'a>) -> Option<BvhWithSdf<'a>> {
+    blob.bvh_with_sdf().ok().filter(|both| both.tree().serves_distances())
+}
+
 /// How far from a distance field a query may be.
 pub const FIELD_LIMIT: &str = "2^60 units of the field from it";
 
@@ -240,7 +245,7 @@ pub const BEST_FIRST: usize = 256;
 pub fn entries(structure: &Distances<'_>) -> usize {
     structure.scratch_entries()
         + match structure {
-            Distances::Tree(_) | Distances::Tight(_) => 0,
+            Distances::Tree(_) | Distances::TreeWithField(_) | Distances::Tight(_) => 0,
             Distances::Hull(_) => COMFORTABLE_SCRATCH,
             Distances::Curve(_) => BEST_FIRST,
         }

@@ -7,7 +7,7 @@ use crate::output::refuse_same_file;
 use crate::queries::Queries;
 use crate::side::{has_sideless, name, reason};
 use crate::{blob_file, served};
-use meshsweep::distances::{Element, has_sides, signed_distance};
+use meshsweep::distances::{Element, has_sides, signed_distance, signed_distance_by_field};
 use meshsweep::number::Short;
 use meshsweep_core::{
     BuildFor, Curve, CurveSignedDistance, Ended, Interval, Sdf, Side, SignedDistance, Undecided,
@@ -32,10 +32,14 @@ pub fn run(args: &SignedArgs) -> Result<(), Failure> {
         return ask_field(args, &field, Queries::read(&points)?);
     }
     let tree = served::require_tree(file, &blob, BuildFor::Closest)?;
+    let both = served::tree_with_field(&blob);
     let header = "x,y,z,side,reason,lower,upper,px,py,pz,triangle,work";
     Question::new(header, Queries::read(&points)?, search).ask_each(
         tree.scratch_entries(),
-        |point, scratch| signed_distance(&tree, point, search.budget(), scratch),
+        |point, scratch| match &both {
+            Some(both) => signed_distance_by_field(both, point, search.budget(), scratch),
+            None => signed_distance(&tree, point, search.budget(), scratch),
+        },
         |out, _, point, &SignedDistance { distance, side, closest, .. }| {
             let Interval { lower, upper } = distance;
             let [px, py, pz] = closest.point;

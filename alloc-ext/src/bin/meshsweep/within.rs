@@ -39,7 +39,10 @@ pub fn run(args: &WithinArgs) -> Result<(), Failure> {
         (Ok(curve), None) => Distances::Curve(curve),
         _ => match served::tight_hull(file, &blob, args.tight)? {
             Some(hull) => Distances::Tight(hull),
-            None => Distances::Tree(tree()?),
+            None => match served::tree_with_field(&blob) {
+                Some(both) => Distances::TreeWithField(both),
+                None => Distances::Tree(tree()?),
+            },
         },
     };
     ask_any(args, structure, Queries::read(points)?)

@@ -76,6 +76,7 @@ fn served(blob: &Blob<'_>) -> Vec<&'static str> {
         ("triboxes", blob.triboxes().is_ok()),
         ("curve", blob.curve().is_ok()),
         ("sdf", blob.sdf().is_ok()),
+        ("both", blob.bvh_with_sdf().is_ok()),
     ];
     all.into_iter().filter_map(|(name, is_served)| is_served.then_some(name)).collect()
 }

@@ -17,7 +17,7 @@ use crate::bvh::tree::node::{OpenedNode, take_least};
 use crate::geom::fan::WIDTH;
 #[cfg(not(meshsweep_wide))]
 use crate::num::SOFT_FLOAT;
-use crate::query::{Budget, ClosestPoint, QueryError, ScratchEntry, Work};
+use crate::query::{Budget, ClosestPoint, Interval, QueryError, ScratchEntry, Work};
 
 impl Bvh<'_> {
     /// Closest point of the surface to `point`, with an interval that contains the distance to the
@@ -71,7 +71,7 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         if cfg!(meshsweep_wide) {
-            search_by_entries(self, point, hint, &budget, scratch)
+            search_by_entries(self, point, hint, None, &budget, scratch)
         } else {
             // The same, in the copy that other questions share.
             search(self, point, hint, &budget, scratch)
@@ -103,6 +103,21 @@ impl Bvh<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         search(self, point, hint, &budget, scratch)
+    }
+
+    /// [`closest_point`](Bvh::closest_point) that knows an interval of the distance beforehand. The
+    /// upper end limits the search from the start. A search with a tolerance ends at the lower end.
+    /// Always in the order of all targets: the interval decides where a tolerance ends it.
+    #[inline(never)]
+    pub(crate) fn closest_point_between(
+        &self,
+        point: [f32; 3],
+        known: &Interval,
+        budget: &Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<ClosestPoint, QueryError> {
+        let hint = &mut Hint::NONE.clone();
+        search_by_entries(self, point, hint, Some(known), budget, scratch)
     }
 }
 
@@ -139,7 +154,7 @@ fn search(
     ) {
         return answer;
     }
-    search_by_entries(tree, point, hint, budget, scratch)
+    search_by_entries(tree, point, hint, None, budget, scratch)
 }
 
 /// The answer on targets without vector registers, and where steps or memory may end the search.
@@ -149,6 +164,7 @@ fn search_by_entries(
     tree: &Bvh<'_>,
     point: [f32; 3],
     hint: &mut Hint,
+    known: Option<&Interval>,
     budget: &Budget,
     scratch: &mut [ScratchEntry],
 ) -> Result<ClosestPoint, QueryError> {
@@ -182,6 +198,9 @@ fn search_by_entries(
             && let Some(leaf) = tree.leaf(hint.node(), hint.child())
         {
             visitor.bound_by_leaf(&leaf).ok_or(QueryError::Unchecked)?;
+        }
+        if let Some(known) = known {
+            visitor.bound_by_interval(known);
         }
         let descent = descend_inlined(tree, query, budget.steps, scratch, &mut visitor, &mut work)?;
         #[cfg(meshsweep_wide)]

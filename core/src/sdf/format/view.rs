@@ -154,6 +154,11 @@ impl Sdf<'_> {
         self.unit
     }
 
+    /// Units in one input unit.
+    pub(crate) const fn per_unit(&self) -> f32 {
+        self.per_unit
+    }
+
     /// The box of the points that round into the field: the origin, half a unit below corner 0 of the
     /// lattice along each axis, and the opposite corner. Input units, rounded to nearest.
     pub fn bounds(&self) -> [[f32; 3]; 2] {

@@ -12,7 +12,7 @@ use core::hint::black_box;
 
 use bare::Input;
 use meshsweep_suite::ask::{
-    Asked, apart, curve, deform, hull, hull_moving, joints, sdf, tight, tree, tribox, triboxes,
+    Asked, apart, both, curve, deform, hull, hull_moving, joints, sdf, tight, tree, tribox, triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Ends, Motion, Place, Point};
@@ -100,6 +100,7 @@ subjects! {
     ask_deform: deform::DeformableHull<'t>;
     ask_curve: curve::Curve<'t>;
     ask_sdf: sdf::Sdf<'t>;
+    ask_both: both::BvhWithSdf<'t>;
 }
 
 /// Opening without a check of the records.

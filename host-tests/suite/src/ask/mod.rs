@@ -55,6 +55,7 @@ macro_rules! opened_here {
 }
 
 pub mod apart;
+pub mod both;
 pub mod curve;
 pub mod deform;
 pub mod hull;

@@ -6,9 +6,9 @@
 use core::mem::size_of;
 
 use meshsweep_core::{
-    Blob, Budget, Bvh, ClosestPoint, CoherentQuery, Decided, Facing, FieldDistance, FirstHit,
-    Focus, Hint, Hull, Pose, QueryError, RefinedHull, Refinement, ScratchEntry, Separation,
-    SplitChange, TriboxBound, UnitDistance,
+    Blob, Budget, Bvh, BvhWithSdf, ClosestPoint, CoherentQuery, Decided, DistanceBounds, Facing,
+    FieldDistance, FirstHit, Focus, Hint, Hull, Pose, QueryError, RefinedHull, Refinement,
+    ScratchEntry, Separation, SplitChange, TriboxBound, UnitDistance,
 };
 
 use super::{Refused, timed};
@@ -49,6 +49,14 @@ pub enum Question {
     Field,
     /// The same in whole units. The numbers of a place are whole.
     FieldInUnits,
+    /// Whether the box tree is within a distance.
+    Within(f32),
+    /// The same of box tree and field.
+    WithinOfBoth(f32),
+    /// The closest point of box tree and field.
+    ClosestOfBoth(Budget),
+    /// Bounds of the distance from box tree and field.
+    BoundsOfBoth(Budget),
 }
 
 impl Question {
@@ -72,6 +80,10 @@ impl Question {
             Self::FirstHitOfHull(budget) => of(12, budget),
             Self::Field => [13, 0, 0, 0],
             Self::FieldInUnits => [14, 0, 0, 0],
+            Self::Within(distance) => [15, distance.to_bits(), 0, 0],
+            Self::WithinOfBoth(distance) => [16, distance.to_bits(), 0, 0],
+            Self::ClosestOfBoth(budget) => of(17, budget),
+            Self::BoundsOfBoth(budget) => of(18, budget),
         }
     }
 
@@ -104,6 +116,10 @@ impl Question {
             12 => Self::FirstHitOfHull(budget),
             13 => Self::Field,
             14 => Self::FieldInUnits,
+            15 => Self::Within(first),
+            16 => Self::WithinOfBoth(first),
+            17 => Self::ClosestOfBoth(budget),
+            18 => Self::BoundsOfBoth(budget),
             _ => return None,
         })
     }
@@ -213,6 +229,10 @@ pub enum Answer {
     Field(FieldDistance),
     /// The same in whole units.
     Units(UnitDistance),
+    /// Whether a structure is within a distance of a point.
+    Decided(Decided<u32>),
+    /// Bounds of a distance.
+    Bounds(DistanceBounds),
     /// A refusal.
     Refused(QueryError),
 }
@@ -237,6 +257,8 @@ impl Answer {
             Self::Hit(hit) => super::segment_hit(fold, hit),
             Self::Field(found) => super::sdf::field_distance(fold, found),
             Self::Units(found) => super::sdf::unit_distance(fold, *found),
+            Self::Decided(answer) => super::verdict(fold, answer.verdict),
+            Self::Bounds(found) => super::both::distance_bounds(fold, found),
             Self::Refused(error) => super::refusal(fold, *error),
         }
     }
@@ -346,6 +368,30 @@ pub fn ask<'t>(
             asking.at(wholes).each(|whole| field.distance_in_units(whole), Answer::Units);
             Ok(0)
         }
+        Question::Within(distance) => {
+            let (tree, exact) = (tree(&blob)?, Budget::EXACT);
+            let entries = tree.scratch_entries();
+            let ask = |place, stack: &mut [_]| tree.within(place, distance, exact, stack);
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Decided)
+        }
+        Question::WithinOfBoth(distance) => {
+            let (both, exact) = (both(&blob)?, Budget::EXACT);
+            let entries = both.tree().scratch_entries();
+            let ask = |place, stack: &mut [_]| both.within(place, distance, exact, stack);
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Decided)
+        }
+        Question::ClosestOfBoth(budget) => {
+            let both = both(&blob)?;
+            let entries = both.tree().scratch_entries_for(budget);
+            let ask = |place, stack: &mut [_]| both.closest_point(place, budget, stack);
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Closest)
+        }
+        Question::BoundsOfBoth(budget) => {
+            let both = both(&blob)?;
+            let entries = both.tree().scratch_entries_for(budget);
+            let ask = |place, stack: &mut [_]| both.distance_bounds(place, budget, stack);
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Bounds)
+        }
         Question::KeptSweep(budget) => kept_sweep(&hull(&blob)?, budget, memory, asking),
         Question::Refine(radius, error) => refine(&hull(&blob)?, (radius, error), memory, asking),
     }
@@ -386,6 +432,10 @@ where
 
 fn tree<'t>(blob: &Blob<'t>) -> Result<Bvh<'t>, Refused> {
     blob.bvh().map_err(|_| Refused::NO_SECTION)
+}
+
+fn both<'t>(blob: &Blob<'t>) -> Result<BvhWithSdf<'t>, Refused> {
+    blob.bvh_with_sdf().map_err(|_| Refused::NO_SECTION)
 }
 
 fn hull<'t>(blob: &Blob<'t>) -> Result<Hull<'t>, Refused> {

@@ -2,9 +2,9 @@
 
 use meshsweep_core::{
     AllHits, AllOverlaps, AllWithin, ClosestPoint, CoherentClosest, CurveClosest,
-    CurveSignedDistance, Decided, FirstHit, FrontFacing, KNearest, PairContact, PairDistance,
-    Penetration, SceneDistance, Separation, SignedDistance, SolidDistance, TriboxBound,
-    TriboxCandidates, WindingNumber, Work,
+    CurveSignedDistance, Decided, DistanceBounds, FirstHit, FrontFacing, KNearest, PairContact,
+    PairDistance, Penetration, SceneDistance, Separation, SignedBounds, SignedDistance,
+    SolidDistance, TriboxBound, TriboxCandidates, WindingNumber, Work,
 };
 
 /// An answer that tells its work.
@@ -32,6 +32,7 @@ worked! {
     CoherentClosest: closest.work;
     CurveClosest: work;
     CurveSignedDistance: closest.work;
+    DistanceBounds: work;
     FirstHit: work;
     KNearest: work;
     PairContact: work;
@@ -39,6 +40,7 @@ worked! {
     Penetration: work;
     SceneDistance: work;
     Separation: work;
+    SignedBounds: work;
     SignedDistance: closest.work;
     SolidDistance: work;
     TriboxBound: work;

@@ -69,6 +69,8 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
     writeln!(out, "  built: {}", first.build())?;
     let by = match (first.setting.how, first.setting.recipe) {
         _ if first.setting.question == Question::FirstHit => ", by first_hit",
+        (_, Recipe::Sdf(_)) => ", by Sdf::distance",
+        (_, Recipe::TreeWithSdf(_)) => ", by BvhWithSdf::distance_bounds",
         (How::Fresh, _) => "",
         (How::Hinted, _) => ", from the hint of the last query",
         (How::Coherent, Recipe::Tree(_)) => ", by a CoherentQuery::<128>",

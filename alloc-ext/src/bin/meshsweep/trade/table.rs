@@ -88,13 +88,22 @@ fn write_rows<'r>(
     columns: &[(&str, usize)],
     width: usize,
 ) -> io::Result<()> {
-    let named = |name: &str, dials: &str| format!("{name:<width$}  {dials:<18}");
+    let named = |name: &str, dials: &str| format!("{name:<width$}  {dials:<22}");
     let headings: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
     write_line(out, &named("structure", "dials"), columns, &headings)?;
     rows.into_iter().try_for_each(|row| {
-        let name = named(&row.setting.recipe.name(), &row.setting.dials());
+        let name = named(&row.setting.recipe.name(), &dials(row));
         write_line(out, &name, columns, &cells(row))
     })
+}
+
+/// The dials of a row, and of how many points the field is enough.
+fn dials(row: &Row) -> String {
+    let dials = row.setting.dials();
+    match row.by_field {
+        Some(part) => format!("{dials}: alone {:.1} %", 100.0 * part),
+        None => dials,
+    }
 }
 
 /// A line of a table: a name, and a cell under each heading.
@@ -272,6 +281,7 @@ pub fn of_row(row: &Row) -> Value {
         "scratch_bytes": row.scratch,
         "host_ns": row.nanoseconds,
         "work": work,
+        "by_field": row.by_field,
     })
 }
 

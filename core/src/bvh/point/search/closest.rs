@@ -4,7 +4,7 @@
 #[cfg(not(meshsweep_wide))]
 use super::waiting::Waiting;
 use crate::bvh::point::hint::Hint;
-use crate::bvh::point::leaf::bounds::{nearness, seen_from, sliver};
+use crate::bvh::point::leaf::bounds::{limit_within, nearness, seen_from, sliver};
 use crate::bvh::point::leaf::distance::nearest_triangle;
 use crate::bvh::point::leaf::limit::LeafLimit;
 use crate::bvh::point::leaf::nearest::{Lanes, LeafNearest};
@@ -64,6 +64,9 @@ pub(crate) struct Closest<'a, N> {
     /// Least squared lower bound of the refined triangles.
     pub(crate) refined_lower_sq: f32,
     pub(crate) tolerant: bool,
+    /// Lower end of an interval of the distance that was known before the search, input units. A
+    /// tolerance that reaches it is met.
+    pub(crate) known_lower: f32,
     /// No hint. Behind a neighbour the cache has the triangle's number in the file.
     #[cfg(meshsweep_wide)]
     pub(crate) is_alone: bool,
@@ -104,6 +107,7 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
             refine_below: f32::NEG_INFINITY,
             refined_lower_sq: f32::INFINITY,
             tolerant: !is_exact(budget),
+            known_lower: 0.0,
             #[cfg(meshsweep_wide)]
             is_alone: true,
             #[cfg(not(meshsweep_wide))]
@@ -143,10 +147,35 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
         }
     }
 
-    /// With a tolerance, only triangles that are nearer by the tolerance are wanted.
+    /// Begins with an interval of the distance to the input mesh, input units, that another
+    /// structure proved. The nearest triangle is computed no farther than the limit, so the limit
+    /// may stand for the distance of a triangle, as in [`bound_by`](Self::bound_by).
+    #[inline(always)]
+    pub(crate) fn bound_by_interval(&mut self, known: &Interval) {
+        self.known_lower = known.lower;
+        let nearest = limit_within(self.query, known.upper);
+        #[cfg(not(meshsweep_wide))]
+        if SOFT_FLOAT && self.waits {
+            // Integers have limits of their own.
+            return;
+        }
+        if Real(nearest) < Real(EVERYTHING_SQ) {
+            self.beyond.distance_sq = self.query.limit(nearest);
+            self.limit = self.query.key_limit(self.beyond.distance_sq);
+            self.best.distance_sq = nearest;
+            self.refine_below = self.query.refine_below(nearest);
+        }
+    }
+
+    /// With a tolerance, only triangles that are nearer by the tolerance are wanted. None, if the
+    /// distance was known to be no less.
     #[cold]
     fn tolerant_limit(&self, distance_sq: f32) -> f32 {
-        square(self.wanted(sqrt_approx(distance_sq)))
+        let wanted = self.wanted(sqrt_approx(distance_sq));
+        if self.known_lower.to_bits() != 0 && self.query.lower(wanted) <= self.known_lower {
+            return 0.0;
+        }
+        square(wanted)
     }
 
     /// The least distance that is not nearer than this one by more than the tolerance.

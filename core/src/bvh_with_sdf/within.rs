@@ -1,0 +1,42 @@
+//! Whether the surface is within a distance of a point.
+
+use super::pair::BvhWithSdf;
+use crate::query::{Budget, Decided, Interval, QueryError, ScratchEntry, Verdict, Work};
+
+impl BvhWithSdf<'_> {
+    /// Whether the input mesh is at most `distance` from `point`, both in input units. See
+    /// [`Bvh::within`](crate::Bvh::within), which answers where the field's interval holds
+    /// `distance`.
+    ///
+    /// The field proves no single triangle: a `Yes` of the field has no witness. The work of the
+    /// field is 0: `work.opened` tells whether the tree was asked.
+    ///
+    /// Like the tree's question it asks about the surface: a point deep inside is `No`. A guard
+    /// that must not call a point inside clear asks [`signed_bounds`](Self::signed_bounds).
+    ///
+    /// Cost: one look-up where the field decides, else that and
+    /// [`Bvh::within`](crate::Bvh::within).
+    ///
+    /// # Errors
+    /// Those of [`Bvh::within`](crate::Bvh::within).
+    #[inline(never)]
+    pub fn within(
+        &self,
+        point: [f32; 3],
+        distance: f32,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Decided<u32>, QueryError> {
+        budget.check_about(distance, scratch)?;
+        self.check_distances()?;
+        let Interval { lower, upper } = self.known(point);
+        let verdict = if lower > distance {
+            Verdict::No
+        } else if upper <= distance {
+            Verdict::Yes
+        } else {
+            return self.tree().within(point, distance, budget, scratch);
+        };
+        Ok(Decided { verdict, witness: None, work: Work::NONE })
+    }
+}
