@@ -6,4 +6,5 @@ mod kernel;
 mod options;
 mod proof;
 mod size;
+mod tree;
 mod truth;

@@ -73,7 +73,7 @@ fn errors_that_are_smaller_and_codes_that_are_others_are_not_proved() {
         };
         assert_eq!(changed(&|_| ()), Outcome::Proved);
         // A sixteenth less of each error.
-        for book in [field::LOW, field::HIGH] {
+        for book in [field::BOOKS, field::HIGH] {
             let less = changed(&|section| {
                 for error in section[book..][..32].as_chunks_mut::<2>().0 {
                     let narrow = u16::from_le_bytes(*error) / 16 * 15;
