@@ -3,7 +3,7 @@
 use super::fit::{Fitted, Fitter};
 use super::grid::{Batch, Grid, unranked};
 use super::leaf::{Leaf, UNIT, entry, losses};
-use super::partition::{BOXES, Box3, Choice, boxes, partition};
+use super::partition::{BOXES, Box3, Choice, LEVELS, boxes, partition};
 use crate::error::BuildError;
 use crate::progress::Watch;
 use crate::sdf::books::{self, book};
@@ -25,11 +25,16 @@ use meshsweep_core::{SdfKind, SdfLayout};
 const SLACK: f64 = 1e-4;
 const FLOOR: f64 = 3e-4;
 
-/// Steps along each side of a leaf at whose places it is fitted at last.
-const STEPS: usize = 8;
+/// Steps along each side of a leaf at whose places it is fitted at last: of most leaves, and of those
+/// with a side of more than a quarter of a root cell's.
+const STEPS: [usize; 2] = [8, 12];
 
 /// Codes that are kept below the least one and above the greatest: a proof may need lower ones.
 const SPARE_CODES: f64 = 12.0;
+
+/// Part of an entry's price that a box costs at least for its halves to be fitted. The price falls
+/// while smaller boxes are looked at.
+const WORTH: f32 = 0.3;
 
 /// A tree.
 pub(in crate::sdf) struct Tree {
@@ -51,6 +56,8 @@ struct Made {
     /// Number of its entry.
     number: usize,
     samples: Vec<Sample>,
+    /// Steps between them along each side.
+    steps: usize,
     fitted: Fitted,
 }
 
@@ -68,7 +75,7 @@ impl Made {
 
     /// Weight of the leaf's width.
     fn weight(&self, batch: &mut Batch, kind: SdfKind, near: f64) -> f64 {
-        batch.fill(&self.samples, STEPS, kind, near);
+        batch.fill(&self.samples, self.steps, kind, near);
         let sum: f64 = batch.weight.iter().map(|&weight| f64::from(weight)).sum();
         (sum / batch.weight.len() as f64 + 1e-3) * self.volume()
     }
@@ -170,28 +177,45 @@ pub(in crate::sdf) fn build(
         return Ok(None);
     }
     let grid = Grid::of(truth, domain, near, watch.part(0.0, 0.25))?;
-    let costs = watch.part(0.25, 0.45).map(roots, |root| {
-        let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
-        let mut costs = vec![0f32; BOXES];
-        for (number, of) in boxes(unranked(root, domain.cells)) {
-            grid.fill(&of, &mut batch);
-            let half = of.half() * (2.0 / ROOT);
-            let volume = half.x * half.y * half.z;
-            costs[number] = (fitter.fit(&batch, of.half(), is_cut).cost * volume) as f32;
+    let mut costs = vec![vec![0f32; BOXES]; roots];
+    // The price of an entry if boxes are halved less often.
+    let mut price = 0.0;
+    let mut choices = Vec::new();
+    for level in 0..=LEVELS {
+        let part = |level: usize| 0.25 + 0.05 * level as f64;
+        costs = watch.part(part(level), part(level + 1)).map(roots, |root| {
+            let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
+            let mut costs = costs[root].clone();
+            for (number, of) in boxes(unranked(root, domain.cells), level) {
+                // A box that costs much less than an entry is not worth halving.
+                if let Some(whole) = of.whole_of().map(|whole| costs[whole])
+                    && whole < WORTH * price
+                {
+                    costs[number] = 0.5 * whole;
+                    continue;
+                }
+                grid.fill(&of, &mut batch);
+                let half = of.half() * (2.0 / ROOT);
+                let volume = half.x * half.y * half.z;
+                costs[number] = (fitter.fit(&batch, of.half(), is_cut).cost * volume) as f32;
+            }
+            costs
+        })?;
+        if level >= 2 {
+            (choices, price) = partition(&costs, level, most_entries);
         }
-        costs
-    })?;
-    let choices = partition(&costs, most_entries);
+    }
     drop((grid, costs));
     let Some((mut entries, leaves, steps)) = entries(domain, &choices) else { return Ok(None) };
     let leaves = watch.part(0.5, 0.65).map(leaves.len(), |leaf| {
         let (number, of) = leaves[leaf];
-        let samples = of_box(truth, of.corner(), 2.0 * of.half(), STEPS);
+        let steps = STEPS[usize::from(of.half().max_element() > ROOT / 8.0 + 1.0)];
+        let samples = of_box(truth, of.corner(), 2.0 * of.half(), steps);
         let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
-        batch.fill(&samples, STEPS, kind, near);
+        batch.fill(&samples, steps, kind, near);
         let first = fitter.fit(&batch, of.half(), is_cut);
         let fitted = fitter.polish(&batch, of.half(), is_cut, first);
-        Made { of, number, samples, fitted }
+        Made { of, number, samples, steps, fitted }
     })?;
     let offsets: Vec<f64> = leaves.iter().map(|leaf| leaf.offset(off, slack)).collect();
     let least = offsets.iter().copied().fold(f64::INFINITY, f64::min);
@@ -225,7 +249,8 @@ pub(in crate::sdf) fn build(
         let boxed = [leaf.of.corner(), 2.0 * half];
         Prover::cell(truth, function, boxed, wanted, FLOOR * domain.diagonal)
     })?;
-    let needed: Vec<Coded> = (leaves.iter().zip(&asked).zip(&proofs))
+    let mut scale = scale;
+    let mut needed: Vec<Coded> = (leaves.iter().zip(&asked).zip(&proofs))
         .map(|((leaf, &coded), proof)| {
             if !proof.is_widened {
                 return Coded { width: book[books::entry(&book, coded.width)], ..coded };
@@ -236,6 +261,23 @@ pub(in crate::sdf) fn build(
             Coded { code, width: width(leaf, code, offset + proof.errors.high) }
         })
         .collect();
+    let in_range = |coded: &Coded| (0..=i64::from(MOST_CODE)).contains(&coded.code);
+    if !needed.iter().all(in_range) {
+        // The proof lowered a leaf by many codes. Wider steps: leaves go down and become as much wider.
+        let values = needed.iter().map(|coded| scale.value(coded.code));
+        let (least, most) = (
+            values.clone().fold(f64::INFINITY, f64::min),
+            values.fold(f64::NEG_INFINITY, f64::max),
+        );
+        let Some(wider) = Scale::of(least, most) else { return Ok(None) };
+        for coded in &mut needed {
+            let value = scale.value(coded.code);
+            let code = wider.code(value);
+            let width = f64::from(coded.width) + value - wider.value(code) + MARGIN;
+            *coded = Coded { code, width: width.ceil() as u32 };
+        }
+        scale = wider;
+    }
     let widest = needed.iter().map(|coded| coded.width).max().unwrap_or(0);
     book[WIDTHS - 1] = widest.max(book[WIDTHS - 1]);
     if book[WIDTHS - 1] > u32::from(u16::MAX) {
@@ -248,7 +290,7 @@ pub(in crate::sdf) fn build(
         let Some(bytes) = entry(leaf.fitted.shape, code, place) else { return Ok(None) };
         entries[leaf.number] = bytes;
         let weight = leaf.volume() / leaf.samples.len() as f64;
-        batch.fill(&leaf.samples, STEPS, kind, near);
+        batch.fill(&leaf.samples, leaf.steps, kind, near);
         let values = fitter.values(&batch, leaf.of.half(), leaf.fitted.shape);
         for (value, &sample) in values.iter().zip(&leaf.samples) {
             let lower = f64::from(*value) + scale.value(code);

@@ -138,11 +138,14 @@ fn plane(batch: &Batch, half: DVec3) -> [f64; 3] {
     let is_used = |most: f32| most > f32::NEG_INFINITY;
     let used = batch.most.iter().filter(|&&most| is_used(most)).count();
     let takes_all = used < FEWEST || used == batch.most.len();
+    if takes_all {
+        return plane_of_all(batch, half);
+    }
     // Sums of the products of 1, x, y, z, value.
     let mut sums = [0f64; 14];
     let unit = half.recip().as_vec3();
     each_place(batch, half, |number, x, y, z| {
-        if !takes_all && !is_used(batch.most[number]) {
+        if !is_used(batch.most[number]) {
             return;
         }
         let (x, y, z, value) = (x * unit.x, y * unit.y, z * unit.z, batch.value[number]);
@@ -158,6 +161,31 @@ fn plane(batch: &Batch, half: DVec3) -> [f64; 3] {
     let rows = [[n, x, y, z, f], [x, xx, xy, xz, fx], [y, xy, yy, yz, fy], [z, xz, yz, zz, fz]];
     let [_, a, b, c] = solved(rows);
     [a / half.x, b / half.y, c / half.z]
+}
+
+/// The same of all samples: those of a grid about its centre need no equations.
+fn plane_of_all(batch: &Batch, half: DVec3) -> [f64; 3] {
+    let [i, j, k] = batch.steps;
+    let (mut sums, mut rows) = ([0f64; 3], batch.value.chunks_exact(i + 1));
+    for z in along(k, half.z) {
+        for y in along(j, half.y) {
+            let (mut sum, mut by_x) = (0f32, 0f32);
+            for (x, value) in along(i, half.x).zip(rows.next().unwrap_or_default()) {
+                sum += value;
+                by_x += value * x;
+            }
+            let sum = f64::from(sum);
+            sums[0] += f64::from(by_x);
+            sums[1] += sum * f64::from(y);
+            sums[2] += sum * f64::from(z);
+        }
+    }
+    [0, 1, 2].map(|axis| {
+        let squares =
+            |steps: usize| -> f64 { along(steps, half[axis]).map(|x| f64::from(x).powi(2)).sum() };
+        let others = batch.value.len() / (batch.steps[axis] + 1);
+        sums[axis] / (squares(batch.steps[axis]) * others as f64)
+    })
 }
 
 /// The solution of symmetric equations by elimination. An unknown that they do not tell is 0.
@@ -193,19 +221,31 @@ fn curvature(batch: &Batch, half: DVec3, gradient: [i32; 3]) -> i32 {
     let [a, b, c] = [flat[0] as f32, flat[1] as f32, flat[2] as f32];
     let [_, _, _, xx, yy, zz, yz, zx, xy] = bent.map(|term| term as f32);
     let (mut n, mut s, mut ss, mut r, mut rs) = (0f64, 0f64, 0f64, 0f64, 0f64);
-    each_place(batch, half, |number, x, y, z| {
-        if batch.most[number] == f32::NEG_INFINITY {
-            return;
+    let [i, j, k] = batch.steps;
+    let mut start = 0;
+    // Squares are below 2^17 units, so sums of a row's are f32 to many places.
+    for z in along(k, half.z) {
+        for y in along(j, half.y) {
+            let (constant, linear) = (yy * y * y + zz * z * z + yz * y * z, zx * z + xy * y);
+            let (plane, row) = (b * y + c * z, start..start + i + 1);
+            let mut sums = [0f32; 5];
+            let samples = batch.value[row.clone()].iter().zip(&batch.most[row]);
+            for (x, (value, &most)) in along(i, half.x).zip(samples) {
+                let used = if most > f32::NEG_INFINITY { 1.0 } else { 0.0 };
+                let square = used * (constant + (linear + xx * x) * x);
+                let rest = used * (value - a * x - plane);
+                for (sum, term) in
+                    sums.iter_mut().zip([used, square, square * square, rest, rest * square])
+                {
+                    *sum += term;
+                }
+            }
+            let [of_n, of_s, of_ss, of_r, of_rs] = sums.map(f64::from);
+            (n, s, ss) = (n + of_n, s + of_s, ss + of_ss);
+            (r, rs) = (r + of_r, rs + of_rs);
+            start += i + 1;
         }
-        let square =
-            f64::from(xx * x * x + yy * y * y + zz * z * z + yz * y * z + zx * z * x + xy * x * y);
-        let rest = f64::from(batch.value[number] - a * x - b * y - c * z);
-        n += 1.0;
-        s += square;
-        ss += square * square;
-        r += rest;
-        rs += rest * square;
-    });
+    }
     let spread = ss - s * s / n.max(1.0);
     if spread <= 1e-9 * ss {
         return 0;

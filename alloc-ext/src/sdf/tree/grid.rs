@@ -17,7 +17,7 @@ const STEPS: usize = 2 << LEVELS;
 const AT_ONCE: usize = 8;
 
 /// Most steps along a side of a box that is fitted.
-const MOST_STEPS: usize = 8;
+const MOST_STEPS: usize = 16;
 
 /// What samples in a box allow.
 #[derive(Debug, Default)]
@@ -111,13 +111,14 @@ impl Grid {
             for j in 0..=steps[1] {
                 let row =
                     start[0] + x * (start[1] + j * stride[1] + y * (start[2] + k * stride[2]));
-                let places = (row..=row + size[0]).step_by(stride[0]);
-                for at in places {
-                    batch.value.push(self.all.value[at]);
-                    batch.least.push(self.all.least[at]);
-                    batch.most.push(self.all.most[at]);
-                    batch.weight.push(self.all.weight[at]);
-                }
+                let copy = |to: &mut Vec<f32>, from: &[f32]| match stride[0] {
+                    1 => to.extend_from_slice(&from[row..=row + size[0]]),
+                    stride => to.extend(from[row..=row + size[0]].iter().step_by(stride)),
+                };
+                copy(&mut batch.value, &self.all.value);
+                copy(&mut batch.least, &self.all.least);
+                copy(&mut batch.most, &self.all.most);
+                copy(&mut batch.weight, &self.all.weight);
             }
         }
     }

@@ -44,6 +44,15 @@ impl Box3 {
         x + ALONG * (y + ALONG * z)
     }
 
+    /// The number of the box that this is a half of, along the axis that is halved most.
+    pub fn whole_of(&self) -> Option<usize> {
+        let axis = (0..3).max_by_key(|&axis| self.level[axis])?;
+        let mut whole = *self;
+        whole.level[axis] = whole.level[axis].checked_sub(1)?;
+        whole.at[axis] /= 2;
+        Some(whole.number())
+    }
+
     /// Least place, with so many steps along a root cell's side.
     pub fn start(&self, steps: usize) -> [usize; 3] {
         let size = self.size(steps);
@@ -80,9 +89,14 @@ impl Box3 {
     }
 }
 
-/// All boxes of a root cell, the smallest last.
-pub(super) fn boxes(root: [usize; 3]) -> impl Iterator<Item = (usize, Box3)> {
-    (0..BOXES).map(move |number| (number, Box3::by_number(root, number)))
+/// The boxes of a root cell that are halved so often along the axis that is halved most, those after
+/// the boxes that they are halves of.
+pub(super) fn boxes(root: [usize; 3], most: usize) -> Vec<(usize, Box3)> {
+    let all = (0..BOXES).map(move |number| (number, Box3::by_number(root, number)));
+    let mut kept: Vec<(usize, Box3)> =
+        all.filter(|(_, of)| of.level.iter().max() == Some(&most)).collect();
+    kept.sort_by_key(|(_, of)| of.level.iter().sum::<usize>());
+    kept
 }
 
 /// The partition of one root cell at a price.
@@ -100,17 +114,18 @@ impl Choice {
     }
 }
 
-/// Numbers of the boxes, those of the most halvings first.
-fn order() -> Vec<u32> {
-    let mut order: Vec<u32> = (0..BOXES as u32).collect();
-    let halvings =
-        |&number: &u32| Box3::by_number([0; 3], number as usize).level.iter().sum::<usize>();
-    order.sort_by_key(|number| std::cmp::Reverse(halvings(number)));
+/// Numbers of the boxes whose axes are all halved at most so often, those of the most halvings first.
+fn order(most: usize) -> Vec<u32> {
+    let level = |number: &u32| Box3::by_number([0; 3], *number as usize).level;
+    let mut order: Vec<u32> = (0..BOXES as u32)
+        .filter(|number| level(number).iter().all(|&level| level <= most))
+        .collect();
+    order.sort_by_key(|number| std::cmp::Reverse(level(number).iter().sum::<usize>()));
     order
 }
 
 /// The best partition at a price of an entry.
-fn choose(costs: &[f32], order: &[u32], price: f32) -> Choice {
+fn choose(costs: &[f32], order: &[u32], most: usize, price: f32) -> Choice {
     let mut best = vec![0f32; BOXES];
     let mut axes_of = vec![0u8; BOXES];
     for &number in order {
@@ -121,7 +136,7 @@ fn choose(costs: &[f32], order: &[u32], price: f32) -> Choice {
         let stride = [1, ALONG, ALONG * ALONG];
         let (mut least, mut chosen) = (costs[number] + price, 0u8);
         for axes in 1..8usize {
-            if (0..3).any(|axis| axes >> axis & 1 != 0 && of.level[axis] == LEVELS) {
+            if (0..3).any(|axis| axes >> axis & 1 != 0 && of.level[axis] == most) {
                 continue;
             }
             let mut first = 0;
@@ -156,11 +171,15 @@ fn choose(costs: &[f32], order: &[u32], price: f32) -> Choice {
 }
 
 /// The partition of all root cells into at most so many entries, and the least cost: by the costs of
-/// all boxes of each.
-pub(super) fn partition(costs: &[Vec<f32>], most_entries: usize) -> Vec<Choice> {
-    let order = order();
+/// all boxes of each. No axis is halved more often than `most` times. Also the price of an entry.
+pub(super) fn partition(
+    costs: &[Vec<f32>],
+    most: usize,
+    most_entries: usize,
+) -> (Vec<Choice>, f32) {
+    let order = order(most);
     let at = |price: f64| -> Vec<Choice> {
-        costs.par_iter().map(|costs| choose(costs, &order, price as f32)).collect()
+        costs.par_iter().map(|costs| choose(costs, &order, most, price as f32)).collect()
     };
     let entries =
         |all: &[Choice]| costs.len() + all.iter().map(|choice| choice.entries).sum::<usize>();
@@ -181,5 +200,5 @@ pub(super) fn partition(costs: &[Vec<f32>], most_entries: usize) -> Vec<Choice> 
             }
         }
     }
-    best
+    (best, high as f32)
 }
