@@ -10,7 +10,7 @@ use meshsweep::emit::source::{SourceNames, c_header, c_source, rust_module};
 use meshsweep::hull::{self, BuildOptions, Levels};
 use meshsweep::mesh::{KeyFrame, Mesh};
 use meshsweep::progress::Watch;
-use meshsweep::sdf::{self, SdfOptions};
+use meshsweep::sdf::{self, SdfLayout, SdfOptions};
 use meshsweep::tight::{self, ChainOptions};
 use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::Blob;
@@ -75,6 +75,7 @@ pub fn groove_field() -> Vec<u8> {
     let (positions, triangles) = groove_block();
     let mesh = Mesh::new(positions, triangles);
     let options = SdfOptions::default().with_bytes(8 << 10);
+    let options = options.with_layout(Some(SdfLayout::Lattice));
     sdf::build(mesh.as_input(), &options, Watch::NONE).expect("an area").0.to_bytes()
 }
 

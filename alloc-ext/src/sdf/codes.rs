@@ -10,16 +10,10 @@ use super::function::Trilinear;
 use super::prove::Errors;
 use super::samples::{Sample, Samples};
 use super::truth::{Side, Truth};
-use super::widths::Widths;
+use super::widths::{NEAR, Widths, weight};
 use meshsweep_core::SdfKind;
 use meshsweep_core::internal::sdf::format::layout::{MOST_BASE, MOST_STEP};
 use rayon::prelude::*;
-
-/// Part of the diagonal within which most questions are.
-pub(super) const NEAR: f64 = 0.1;
-
-/// Weight of questions farther out.
-const FAR_WEIGHT: f64 = 0.05;
 
 /// Weight of a cell without questions.
 const LEAST_WEIGHT: f64 = 1e-3;
@@ -44,16 +38,6 @@ pub(super) struct Codes {
 struct Limits {
     least: Vec<f32>,
     most: Vec<f32>,
-}
-
-/// How much a sample counts.
-pub(super) fn weight(sample: Sample, kind: SdfKind, near: f64) -> f64 {
-    match (sample.side, kind) {
-        (Side::Inside, SdfKind::Solid) => 0.0,
-        (Side::Inside, SdfKind::Signed) => 1.0,
-        _ if f64::from(sample.distance) <= near => 1.0,
-        _ => FAR_WEIGHT,
-    }
 }
 
 /// Distance at a corner.

@@ -1,8 +1,24 @@
-//! How wide intervals are where most questions are.
+//! Where most questions are, and how wide intervals are there.
 
-use super::codes::weight;
 use super::samples::Sample;
+use super::truth::Side;
 use meshsweep_core::SdfKind;
+
+/// Part of the diagonal within which most questions are.
+pub(super) const NEAR: f64 = 0.1;
+
+/// Weight of questions farther out.
+const FAR_WEIGHT: f64 = 0.05;
+
+/// How much a sample counts.
+pub(super) fn weight(sample: Sample, kind: SdfKind, near: f64) -> f64 {
+    match (sample.side, kind) {
+        (Side::Inside, SdfKind::Solid) => 0.0,
+        (Side::Inside, SdfKind::Signed) => 1.0,
+        _ if f64::from(sample.distance) <= near => 1.0,
+        _ => FAR_WEIGHT,
+    }
+}
 
 /// Widths of intervals at samples of full weight, units.
 #[derive(Clone, Copy, Debug, Default)]

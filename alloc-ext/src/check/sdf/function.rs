@@ -1,7 +1,9 @@
 //! The functions of cells, about the centres of boxes.
 
-use super::parse::CELL;
 use glam::DVec3;
+
+/// Units along each axis of a lattice's cell.
+pub(super) const CELL: f64 = 2048.0;
 
 /// The function of a cell.
 pub(super) enum Function {

@@ -1,13 +1,10 @@
 //! The numbers of the section, and its cells.
 
-use super::function::{Bent, Function, PART, Trilinear};
+use super::function::{Bent, CELL, Function, PART, Trilinear};
 use crate::check::bytes::{Cursor, section};
 use glam::DVec3;
 
 const SDF: u32 = 28;
-
-/// Units along each axis of a lattice's cell.
-pub(super) const CELL: f64 = 2048.0;
 
 /// Units along each axis of a tree's root cell.
 const ROOT: f64 = 65_536.0;

@@ -1,24 +1,23 @@
 //! The stages of a tree's build, and its bytes.
 
+use super::codes::{Coded, Scale};
 use super::fit::{Fitted, Fitter};
-use super::grid::{Batch, Grid, unranked};
-use super::leaf::{Leaf, UNIT, entry, losses};
-use super::partition::{BOXES, Box3, Choice, LEVELS, boxes, partition};
+use super::grid::Batch;
+use super::leaf::{Leaf, entry, losses};
+use super::partition::Box3;
+use super::search::{entries, search};
 use crate::error::BuildError;
 use crate::progress::Watch;
 use crate::sdf::books::{self, book};
-use crate::sdf::codes::NEAR;
 use crate::sdf::domain::{Domain, ROOT};
 use crate::sdf::prove::{Errors, Proof, Prover};
 use crate::sdf::region::MARGIN;
 use crate::sdf::samples::{Sample, of_box};
 use crate::sdf::truth::{Side, Truth};
-use crate::sdf::widths::Widths;
+use crate::sdf::widths::{NEAR, Widths};
 use meshsweep_core::internal::sdf::format::SdfHeader;
-use meshsweep_core::internal::sdf::format::layout::tree::{
-    ENTRY_BYTES, MOST_CODE, MOST_ENTRIES, MOST_STEP, WIDTHS,
-};
-use meshsweep_core::internal::sdf::format::layout::{BOOK, MOST_BASE, SDF_BYTES};
+use meshsweep_core::internal::sdf::format::layout::tree::{ENTRY_BYTES, MOST_ENTRIES, WIDTHS};
+use meshsweep_core::internal::sdf::format::layout::{BOOK, SDF_BYTES};
 use meshsweep_core::{SdfKind, SdfLayout};
 
 /// As of a lattice, parts of the diagonal: slack of wanted errors, and the least radius of a box.
@@ -28,13 +27,6 @@ const FLOOR: f64 = 3e-4;
 /// Steps along each side of a leaf at whose places it is fitted at last: of most leaves, and of those
 /// with a side of more than a quarter of a root cell's.
 const STEPS: [usize; 2] = [8, 12];
-
-/// Codes that are kept below the least one and above the greatest: a proof may need lower ones.
-const SPARE_CODES: f64 = 12.0;
-
-/// Part of an entry's price that a box costs at least for its halves to be fitted. The price falls
-/// while smaller boxes are looked at.
-const WORTH: f32 = 0.3;
 
 /// A tree.
 pub(in crate::sdf) struct Tree {
@@ -91,74 +83,6 @@ impl Made {
     }
 }
 
-/// What stands in a leaf: code, and width in whole units.
-#[derive(Clone, Copy)]
-struct Coded {
-    code: i64,
-    width: u32,
-}
-
-/// How codes are read, units.
-#[derive(Clone, Copy)]
-struct Scale {
-    base: i32,
-    step: u16,
-}
-
-impl Scale {
-    /// That holds values from the least to the greatest.
-    fn of(least: f64, most: f64) -> Option<Self> {
-        let step = (most - least) / UNIT / (f64::from(MOST_CODE) - 2.0 * SPARE_CODES);
-        let step = step.ceil().max(1.0);
-        let base = (least - SPARE_CODES * step * UNIT).floor();
-        let fits = step <= f64::from(MOST_STEP) && base.abs() <= f64::from(MOST_BASE);
-        fits.then_some(Self { base: base as i32, step: step as u16 })
-    }
-
-    /// Units of a code.
-    fn step(self) -> f64 {
-        f64::from(self.step) * UNIT
-    }
-
-    fn value(self, code: i64) -> f64 {
-        f64::from(self.base) + code as f64 * self.step()
-    }
-
-    /// The greatest code whose value is not above this.
-    fn code(self, value: f64) -> i64 {
-        ((value - f64::from(self.base)) / self.step()).floor() as i64
-    }
-}
-
-/// The entries of the partition: nodes as they stand, and leaves to be filled. Also the steps.
-fn entries(
-    domain: &Domain,
-    choices: &[Choice],
-) -> Option<(Vec<[u8; ENTRY_BYTES]>, Vec<(usize, Box3)>, u8)> {
-    let mut entries = vec![[0; ENTRY_BYTES]; choices.len()];
-    let mut leaves = Vec::new();
-    let mut steps = 0;
-    for (root, choice) in choices.iter().enumerate() {
-        let mut open = vec![(root, Box3::whole(unranked(root, domain.cells)), 1)];
-        while let Some((number, of, depth)) = open.pop() {
-            steps = steps.max(depth);
-            let axes = choice.axes(&of);
-            if axes == 0 {
-                leaves.push((number, of));
-                continue;
-            }
-            let first = entries.len();
-            let [a, b] = u16::try_from(first).ok()?.to_le_bytes();
-            entries[number] = [a, b, 0, axes as u8, 0];
-            let parts: Vec<Box3> = of.parts(axes).collect();
-            entries.resize(first + parts.len(), [0; ENTRY_BYTES]);
-            let children = parts.into_iter().enumerate();
-            open.extend(children.rev().map(|(at, part)| (first + at, part, depth + 1)));
-        }
-    }
-    Some((entries, leaves, steps))
-}
-
 /// Builds a tree; `None` of a field that does not fit its numbers. `off` is how far the input may be
 /// from the mesh, units.
 pub(in crate::sdf) fn build(
@@ -172,40 +96,10 @@ pub(in crate::sdf) fn build(
     let is_cut = kind != SdfKind::Signed;
     let (near, slack) = (NEAR * domain.diagonal, SLACK * domain.diagonal);
     let most_entries = (most_bytes.saturating_sub(SDF_BYTES) / ENTRY_BYTES).min(MOST_ENTRIES);
-    let roots = domain.cell_count();
-    if roots > most_entries {
+    if domain.cell_count() > most_entries {
         return Ok(None);
     }
-    let grid = Grid::of(truth, domain, near, watch.part(0.0, 0.25))?;
-    let mut costs = vec![vec![0f32; BOXES]; roots];
-    // The price of an entry if boxes are halved less often.
-    let mut price = 0.0;
-    let mut choices = Vec::new();
-    for level in 0..=LEVELS {
-        let part = |level: usize| 0.25 + 0.05 * level as f64;
-        costs = watch.part(part(level), part(level + 1)).map(roots, |root| {
-            let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
-            let mut costs = costs[root].clone();
-            for (number, of) in boxes(unranked(root, domain.cells), level) {
-                // A box that costs much less than an entry is not worth halving.
-                if let Some(whole) = of.whole_of().map(|whole| costs[whole])
-                    && whole < WORTH * price
-                {
-                    costs[number] = 0.5 * whole;
-                    continue;
-                }
-                grid.fill(&of, &mut batch);
-                let half = of.half() * (2.0 / ROOT);
-                let volume = half.x * half.y * half.z;
-                costs[number] = (fitter.fit(&batch, of.half(), is_cut).cost * volume) as f32;
-            }
-            costs
-        })?;
-        if level >= 2 {
-            (choices, price) = partition(&costs, level, most_entries);
-        }
-    }
-    drop((grid, costs));
+    let choices = search(truth, domain, most_entries, watch.part(0.0, 0.5))?;
     let Some((mut entries, leaves, steps)) = entries(domain, &choices) else { return Ok(None) };
     let leaves = watch.part(0.5, 0.65).map(leaves.len(), |leaf| {
         let (number, of) = leaves[leaf];
@@ -218,9 +112,7 @@ pub(in crate::sdf) fn build(
         Made { of, number, samples, steps, fitted }
     })?;
     let offsets: Vec<f64> = leaves.iter().map(|leaf| leaf.offset(off, slack)).collect();
-    let least = offsets.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = offsets.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let Some(scale) = Scale::of(least, most) else { return Ok(None) };
+    let Some(scale) = Scale::of(offsets.iter().copied()) else { return Ok(None) };
     // The width that holds an error above of the function with the value 0 at the centre.
     let width = |leaf: &Made, code: i64, high: f64| {
         let [below, _] = leaf.losses(off);
@@ -249,7 +141,6 @@ pub(in crate::sdf) fn build(
         let boxed = [leaf.of.corner(), 2.0 * half];
         Prover::cell(truth, function, boxed, wanted, FLOOR * domain.diagonal)
     })?;
-    let mut scale = scale;
     let mut needed: Vec<Coded> = (leaves.iter().zip(&asked).zip(&proofs))
         .map(|((leaf, &coded), proof)| {
             if !proof.is_widened {
@@ -261,23 +152,7 @@ pub(in crate::sdf) fn build(
             Coded { code, width: width(leaf, code, offset + proof.errors.high) }
         })
         .collect();
-    let in_range = |coded: &Coded| (0..=i64::from(MOST_CODE)).contains(&coded.code);
-    if !needed.iter().all(in_range) {
-        // The proof lowered a leaf by many codes. Wider steps: leaves go down and become as much wider.
-        let values = needed.iter().map(|coded| scale.value(coded.code));
-        let (least, most) = (
-            values.clone().fold(f64::INFINITY, f64::min),
-            values.fold(f64::NEG_INFINITY, f64::max),
-        );
-        let Some(wider) = Scale::of(least, most) else { return Ok(None) };
-        for coded in &mut needed {
-            let value = scale.value(coded.code);
-            let code = wider.code(value);
-            let width = f64::from(coded.width) + value - wider.value(code) + MARGIN;
-            *coded = Coded { code, width: width.ceil() as u32 };
-        }
-        scale = wider;
-    }
+    let Some(scale) = scale.holding(&mut needed) else { return Ok(None) };
     let widest = needed.iter().map(|coded| coded.width).max().unwrap_or(0);
     book[WIDTHS - 1] = widest.max(book[WIDTHS - 1]);
     if book[WIDTHS - 1] > u32::from(u16::MAX) {

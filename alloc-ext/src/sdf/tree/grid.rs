@@ -3,10 +3,10 @@
 use super::partition::{Box3, LEVELS};
 use crate::error::BuildError;
 use crate::progress::Watch;
-use crate::sdf::codes::weight;
 use crate::sdf::domain::{Domain, ROOT};
 use crate::sdf::samples::{Sample, of_box};
 use crate::sdf::truth::{Side, Truth};
+use crate::sdf::widths::weight;
 use glam::DVec3;
 use meshsweep_core::SdfKind;
 

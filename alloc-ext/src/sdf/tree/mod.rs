@@ -5,6 +5,8 @@
 //! leaf       a leaf's function and bytes
 //! fit        the function of a box, from samples
 //! partition  the best boxes for a number of bytes
+//! search     their costs, and the entries of the best
+//! codes      the functions' values, as they are stored
 //! build      the stages, and the section's bytes
 //! ```
 //!
@@ -14,9 +16,11 @@
 //! follows from the smallest boxes upwards, and the price is found that fills the bytes.
 
 mod build;
+mod codes;
 mod fit;
 mod grid;
 mod leaf;
 mod partition;
+mod search;
 
 pub(super) use build::build;
