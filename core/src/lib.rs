@@ -134,7 +134,7 @@ pub use query::{
     PosedPoint, QueryError, Relation, RoundedPose, Scratch, ScratchEntry, Side, SignedDistance,
     Solid, SolidDistance, TriangleHit, TrianglePair, Undecided, Verdict, Work, link_poses,
 };
-pub use sdf::{FieldDistance, Sdf, SdfKind, UnitDistance};
+pub use sdf::{FieldDistance, Sdf, SdfKind, SdfLayout, UnitDistance};
 pub use tight::{TightHull, TightHulls, TightRecord};
 pub use tribox::{
     Boundary, NodePair, Separation, Tribox, TriboxBound, TriboxCandidates, TriboxError,

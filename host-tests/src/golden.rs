@@ -12,7 +12,7 @@ use meshsweep::emit::source::{SourceNames, c_header, c_source, rust_module};
 use meshsweep::hull::{self, BuildOptions, Levels};
 use meshsweep::mesh::{KeyFrame, Mesh, RawMesh};
 use meshsweep::progress::Watch;
-use meshsweep::sdf::{self, SdfOptions};
+use meshsweep::sdf::{self, SdfLayout, SdfOptions};
 use meshsweep::tight::{self, ChainOptions};
 use meshsweep::tribox::{self, TriboxOptions};
 use meshsweep_core::Blob;
@@ -75,7 +75,8 @@ pub fn bracket_model(folder: &Path) -> Result<Vec<u8>, String> {
 /// Never: the mesh has an area.
 #[must_use]
 pub fn groove_field() -> Vec<u8> {
-    field_of_groove(&SdfOptions::default().with_bytes(8 << 10))
+    let options = SdfOptions::default().with_bytes(8 << 10);
+    field_of_groove(&options.with_layout(Some(SdfLayout::Lattice)))
 }
 
 /// The smaller field of the example `haptics`: no wider than its pad.

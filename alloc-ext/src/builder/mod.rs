@@ -26,7 +26,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 pub use crate::progress::Stage;
-pub use crate::sdf::{BYTES as SDF_BYTES, SdfKind};
+pub use crate::sdf::{BYTES as SDF_BYTES, SdfKind, SdfLayout};
 pub use crate::tight::FACES;
 pub use built::{Built, Note, Topic};
 pub use options::{For, TRIBOXES};
@@ -114,6 +114,9 @@ impl<'a> Builder<'a> {
         /// What the distances of a field mean. Default: signed if the mesh is closed and has
         /// sides, else [`SdfKind::Surface`].
         sdf_kind: SdfKind => options.sdf_kind,
+        /// How a field lies in its bytes. Default: both layouts are built, and the one whose mean
+        /// width is smaller is kept.
+        sdf_layout: SdfLayout => options.sdf_layout,
         /// Distance about the mesh's box that a field covers, in the mesh's unit. Default: a tenth
         /// of the box's diagonal.
         sdf_margin: f64 => options.sdf_margin,

@@ -9,7 +9,7 @@ use crate::hull::{BuildReport, Kind, sticks_out_note, wires_note};
 use crate::load::Loaded;
 use crate::mesh::Mesh;
 use crate::number::{About, AtMost};
-use crate::sdf::{SdfKind, SdfReport};
+use crate::sdf::{SdfKind, SdfLayout, SdfReport};
 use crate::surface::VertexBits;
 use crate::tight::{Goal, HullReport, margin_note, no_void_note, rounded_note};
 use crate::tribox::{TriboxReport, volume};
@@ -171,17 +171,25 @@ fn of_sdf(report: &SdfReport) -> Vec<String> {
         About(report.mean_width),
         About(report.largest_width)
     ));
+    let of_tree = report.layout == SdfLayout::Tree;
+    if let Some(width) = report.other_width {
+        let [kept, other] = if of_tree { ["tree", "lattice"] } else { ["lattice", "tree"] };
+        texts.push(format!(
+            "{kept} kept: intervals of a {other} of as many bytes would be about {} wide",
+            About(width)
+        ));
+    }
     texts.push(format!(
         "proved by {}; {} became wider for it",
         Counted(report.boxes, "box"),
-        Counted(report.widened, "cell")
+        Counted(report.widened, if of_tree { "leaf" } else { "cell" })
     ));
     if report.undecided > 0 {
-        let all: usize = report.cells.iter().product();
+        let all = report.cell_count;
         texts.push(format!(
             "in {} of {all} points have no certain side: the mesh crosses itself there, or is \
              inside out",
-            Counted(report.undecided, "cell")
+            Counted(report.undecided, if of_tree { "leaf" } else { "cell" })
         ));
     }
     texts

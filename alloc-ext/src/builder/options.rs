@@ -7,7 +7,7 @@ use crate::hull::BuildOptions;
 use crate::load::is_named_as_mesh;
 use crate::mesh::Unit;
 use crate::number::{ABOVE_ZERO, FROM_ZERO};
-use crate::sdf::{BYTES as SDF_BYTES, SdfKind, SdfOptions};
+use crate::sdf::{BYTES as SDF_BYTES, SdfKind, SdfLayout, SdfOptions};
 use crate::surface::VertexBits;
 use crate::tight::{ChainOptions, FACES, Goal, MAX_HULLS, Options as TightOptions};
 use crate::tribox::{Measure, TriboxOptions};
@@ -117,6 +117,7 @@ pub(super) struct Options {
     pub is_closed: bool,
     pub sdf_bytes: Option<u32>,
     pub sdf_kind: Option<SdfKind>,
+    pub sdf_layout: Option<SdfLayout>,
     pub sdf_margin: Option<f64>,
 }
 
@@ -254,6 +255,7 @@ impl Options {
         SdfOptions::default()
             .with_bytes(self.sdf_bytes.unwrap_or(SDF_BYTES))
             .with_kind(self.sdf_kind)
+            .with_layout(self.sdf_layout)
             .with_margin(self.sdf_margin)
     }
 
@@ -265,7 +267,7 @@ impl Options {
 
     /// All options, one row each: name, what it applies to, value, range. The range of slack, void
     /// and margin is in [`Goal::check`].
-    fn rows(&self) -> [OptionRow; 23] {
+    fn rows(&self) -> [OptionRow; 24] {
         let bits = Some(self.vertex_bits).filter(|&bits| bits != VertexBits::Auto);
         let collapse = &self.collapse;
         let [closest, segment] = self.tight_for.unwrap_or_default();
@@ -312,6 +314,7 @@ impl Options {
             OptionRow::numbers("--effort", Of::Tight, self.effort, ranges::EFFORT),
             OptionRow::numbers("--sdf", Of::Sdf, self.sdf_bytes, ranges::SDF_BYTES),
             OptionRow::words("--sdf-kind", Of::Sdf, self.sdf_kind.map(SdfKind::name)),
+            OptionRow::words("--sdf-layout", Of::Sdf, self.sdf_layout.map(SdfLayout::name)),
             OptionRow::numbers("--sdf-margin", Of::Sdf, self.sdf_margin, FROM_ZERO),
             OptionRow::words("--closed", Of::Any, self.is_closed.then_some("")),
         ]

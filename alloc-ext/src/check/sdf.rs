@@ -3,7 +3,8 @@
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `parse` | the numbers of the section, and the trilinear function of a cell |
+//! | `parse` | the numbers of the section, and its cells or leaves |
+//! | `function` | the function of a cell or leaf |
 //! | `sides` | winding numbers of the mesh and of the file |
 //! | `boxes` | the proof of a cell, by boxes that are halved |
 //!
@@ -11,6 +12,7 @@
 //! off by less than 2^-30 of them, and lengths are below 2^20.
 
 mod boxes;
+mod function;
 mod parse;
 mod sides;
 
@@ -53,8 +55,8 @@ fn prove(bytes: &[u8], input: Input<'_>) -> Result<[usize; 2], Unproved> {
         return Err(Unproved::Wrong(format!("the mesh leaves the field at {out:?}, in its units")));
     }
     let sides = if field.is_unsigned() { None } else { Some(Sides::of(mesh, &field)) };
-    let cells = field.cells.into_iter().product::<usize>();
-    let index = boxes::Grid::new(&triangles, field.cells);
+    let cells = field.count();
+    let index = boxes::Grid::new(&triangles, field.end());
     let cell = Cell { field: &field, sides: sides.as_ref(), moved };
     let prove = |number| cell.prove(number, &triangles, &index);
     let proofs: Vec<Result<usize, Unproved>> = (0..cells).into_par_iter().map(prove).collect();

@@ -1,6 +1,4 @@
-//! Two books of sixteen errors: each cell takes the least that is not below its own.
-
-use meshsweep_core::internal::sdf::format::layout::BOOK;
+//! Books of errors or widths: each cell takes the least entry that is not below its own.
 
 /// Most different errors that are looked at. The others are rounded up to them.
 const MOST_GROUPS: usize = 1024;
@@ -8,8 +6,8 @@ const MOST_GROUPS: usize = 1024;
 /// The book of least weighted sum, for errors and weights. By dynamic programming over the sorted
 /// errors: with one more entry, the cells above a place take the greatest of theirs.
 ///
-/// Errors are whole units. Cost: the sort, and 16 times the square of the groups.
-pub(super) fn book(errors: &[u32], weights: &[f64]) -> [u32; BOOK] {
+/// Errors are whole units. Cost: the sort, and the square of the groups for each entry.
+pub(super) fn book<const N: usize>(errors: &[u32], weights: &[f64]) -> [u32; N] {
     let mut sorted: Vec<(u32, f64)> = errors.iter().copied().zip(weights.iter().copied()).collect();
     sorted.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let of_group = sorted.len().div_ceil(MOST_GROUPS).max(1);
@@ -30,7 +28,7 @@ pub(super) fn book(errors: &[u32], weights: &[f64]) -> [u32; BOOK] {
     // Least sum of the groups below `to`, and where the last entry's groups begin.
     let mut least = vec![f64::INFINITY; count + 1];
     least[0] = 0.0;
-    let mut from = vec![vec![0; count + 1]; BOOK];
+    let mut from = vec![vec![0; count + 1]; N];
     for entry in &mut from {
         let mut next = least.clone();
         for to in 1..=count {
@@ -49,7 +47,7 @@ pub(super) fn book(errors: &[u32], weights: &[f64]) -> [u32; BOOK] {
         }
         least = next;
     }
-    let mut book = [0; BOOK];
+    let mut book = [0; N];
     let mut to = count;
     for (place, entry) in book.iter_mut().zip(&from).rev() {
         *place = if to > 0 { groups[to - 1].0 } else { 0 };
@@ -59,8 +57,8 @@ pub(super) fn book(errors: &[u32], weights: &[f64]) -> [u32; BOOK] {
 }
 
 /// The place of the least entry of an ascending book that is not below an error.
-pub(super) fn entry(book: &[u32; BOOK], error: u32) -> usize {
-    book.partition_point(|&of| of < error).min(BOOK - 1)
+pub(super) fn entry<const N: usize>(book: &[u32; N], error: u32) -> usize {
+    book.partition_point(|&of| of < error).min(N - 1)
 }
 
 #[cfg(test)]
@@ -70,7 +68,7 @@ mod tests {
     #[test]
     fn every_error_has_an_entry_and_few_errors_keep_theirs() {
         let errors = [7, 3, 900, 3, 12, 7, 5];
-        let found = book(&errors, &[1.0; 7]);
+        let found: [u32; 16] = book(&errors, &[1.0; 7]);
         assert!(found.is_sorted());
         for error in errors {
             assert_eq!(found[entry(&found, error)], error);

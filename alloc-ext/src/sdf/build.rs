@@ -5,7 +5,9 @@ use super::domain::{CELL, Domain, bytes};
 use super::encode::{Books, Stored, section};
 use super::prove::{Errors, Proof, Prover};
 use super::samples::Samples;
+use super::tree;
 use super::truth::{Side, Truth};
+use super::widths::Widths;
 use crate::bvh::FileSides;
 use crate::emit::Sections;
 use crate::error::BuildError;
@@ -16,7 +18,7 @@ use crate::surface::scale_exponent;
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
-use meshsweep_core::{SdfKind, SectionKind};
+use meshsweep_core::{SdfKind, SdfLayout, SectionKind};
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
 
@@ -45,11 +47,14 @@ pub struct SdfOptions {
     pub margin: Option<f64>,
     /// What distances mean. `None`: signed if the mesh is closed and has sides, else surface.
     pub kind: Option<SdfKind>,
+    /// How the field lies in its bytes. `None`: both are built, and the one of the smaller mean width
+    /// is kept.
+    pub layout: Option<SdfLayout>,
 }
 
 impl Default for SdfOptions {
     fn default() -> Self {
-        Self { bytes: BYTES, margin: None, kind: None }
+        Self { bytes: BYTES, margin: None, kind: None, layout: None }
     }
 }
 
@@ -61,6 +66,8 @@ impl SdfOptions {
         with_margin: Option<f64> => margin,
         /// Sets the [kind](Self::kind).
         with_kind: Option<SdfKind> => kind,
+        /// Sets the [layout](Self::layout).
+        with_layout: Option<SdfLayout> => layout,
     }
 }
 
@@ -72,16 +79,24 @@ pub struct SdfReport {
     pub kind: SdfKind,
     /// Whether no kind was asked for and the mesh has no sides, so that a surface field was built.
     pub lacks_sides: bool,
-    /// Cells along each axis.
+    /// How the field lies in its bytes.
+    pub layout: SdfLayout,
+    /// Cells along each axis: of a tree its root cells.
     pub cells: [usize; 3],
+    /// Cells of a lattice, or leaves of a tree.
+    pub cell_count: usize,
+    /// Entries that a question reads at most: 1 of a lattice.
+    pub steps: u32,
     /// Bytes of the section.
     pub bytes: usize,
     /// Mean width of the intervals at the samples up to a tenth of the diagonal from the surface. Of
     /// a signed field all samples inside count too, of a solid one none.
     pub mean_width: f64,
+    /// The same of the other layout, if it was built too.
+    pub other_width: Option<f64>,
     /// Largest width at those samples. Between them an interval that is cut at 0 may be wider.
     pub largest_width: f64,
-    /// Largest error of a cell, below or above.
+    /// Largest error of a lattice's cell, below or above; largest width of a tree's leaf.
     pub largest_error: f64,
     /// Cells with places whose side is undecided.
     pub undecided: usize,
@@ -118,7 +133,6 @@ pub fn build(
         return Err(BuildError::Empty);
     }
     let surface = bounds.grown(input.error_up());
-    let domain = Domain::of(&surface, options.margin, options.bytes as usize)?;
     let sides = match options.kind {
         Some(SdfKind::Surface) => None,
         _ => FileSides::of(mesh)?,
@@ -130,60 +144,25 @@ pub fn build(
         (None, true) => SdfKind::Surface,
         (None, false) => SdfKind::Signed,
     };
-    let truth = Truth::new(mesh, domain, kind, sides.as_ref());
-    watch.step(5, 100)?;
-    let samples = Samples::of(&truth, &domain, watch.part(0.05, 0.35))?;
-    let codes = Codes::of(&truth, &domain, &samples);
-    watch.step(40, 100)?;
-    let off = input.error_up() * f64::from(domain.per_unit) * (1.0 + 1e-6);
-    let stored = Stored::new(off, codes.step);
-    let (slack, floor) = (of_field(SLACK, &domain), of_field(FLOOR, &domain));
-    let cells = 0..domain.cell_count();
-    let asked: Vec<[u32; 2]> = (cells.into_par_iter())
-        .map(|cell| {
-            let Errors { low, high } = codes.errors(&domain, &samples, cell, kind);
-            stored.up(Errors { low: low + slack, high: high + slack })
-        })
-        .collect();
-    let mut books = Books::of(&asked, &codes.weights);
-    let proofs = watch.part(0.4, 1.0).map(domain.cell_count(), |cell| {
-        let corner = DVec3::from(domain.cell(cell).map(|at| at as f64)) * CELL;
-        let wanted = stored.errors(books.errors(cell));
-        Prover::cell(&truth, codes.function(&domain, cell), corner, wanted, floor)
-    })?;
-    let proved = |(cell, proof): (usize, &Proof)| match proof.is_widened {
-        true => stored.up(proof.errors),
-        false => books.errors(cell),
+    let of = Work { input, surface, options, kind, sides: sides.as_ref() };
+    let is_wanted = |layout| options.layout.is_none_or(|wanted| wanted == layout);
+    let lattice = match is_wanted(SdfLayout::Lattice) {
+        true => Some(of.lattice(watch.part(0.0, 0.5))?),
+        false => None,
     };
-    let needed: Vec<[u32; 2]> = proofs.iter().enumerate().map(proved).collect();
-    books.hold(&needed);
-    let body = section(&domain, kind, &codes, &books)
-        .ok_or(BuildError::FieldTooWide { kind: kind.name() })?;
-    let found = (0..domain.cell_count()).map(|cell| {
-        let [low, high] = books.errors(cell).map(f64::from);
-        widths(&codes, &domain, &samples, cell, kind, Errors { low, high })
-    });
-    let (sum, most, count) = found
-        .fold((0.0, 0f64, 0), |(sum, most, count), of| (sum + of.0, most.max(of.1), count + of.2));
-    let has_doubt = |cell: &usize| {
-        let is_in_doubt = |sample: &super::samples::Sample| sample.side == Side::Undecided;
-        proofs[*cell].is_undecided || samples.cells[*cell].iter().any(is_in_doubt)
+    let tree = match is_wanted(SdfLayout::Tree) {
+        true => of.tree(watch.part(0.5, 1.0))?,
+        false => None,
     };
-    let in_units = 1.0 / f64::from(domain.per_unit);
-    let largest = needed.iter().flatten().max().map_or(0.0, |&error| f64::from(error));
-    let report = SdfReport {
-        kind,
-        lacks_sides,
-        cells: domain.cells,
-        bytes: bytes(domain.cells),
-        mean_width: sum / f64::max(count as f64, 1.0) * in_units,
-        largest_width: most * in_units,
-        largest_error: largest * in_units,
-        undecided: (0..domain.cell_count()).filter(has_doubt).count(),
-        boxes: proofs.iter().map(|proof| proof.boxes).sum(),
-        widened: proofs.iter().filter(|proof| proof.is_widened).count(),
-        time: started.elapsed(),
+    let width = |field: &Option<Field>| field.as_ref().map(|field| field.report.mean_width);
+    let widths = [width(&lattice), width(&tree)];
+    let is_narrower = widths[1].is_some_and(|tree| widths[0].is_none_or(|other| tree < other));
+    let (field, other) = if is_narrower { (tree, widths[0]) } else { (lattice, widths[1]) };
+    let Some(Field { body, report }) = field else {
+        return Err(BuildError::FieldTooWide { kind: kind.name() });
     };
+    let time = started.elapsed();
+    let report = SdfReport { lacks_sides, other_width: other, time, ..report };
     let scale = scale_exponent(mesh);
     let local = exp2(-scale);
     let corner = |p: DVec3| -> Vec3 { (p * local).as_vec3() };
@@ -195,4 +174,124 @@ pub fn build(
         vec![(SectionKind::Sdf, body)],
     );
     Ok((header, report))
+}
+
+/// A field, before it is a section.
+struct Field {
+    body: Vec<u8>,
+    report: SdfReport,
+}
+
+/// What fields of both layouts are made of.
+#[derive(Clone, Copy)]
+struct Work<'a> {
+    input: Input<'a>,
+    surface: Bounds,
+    options: &'a SdfOptions,
+    kind: SdfKind,
+    sides: Option<&'a FileSides>,
+}
+
+impl Work<'_> {
+    /// How far the input may be from the mesh, units.
+    fn off(&self, domain: &Domain) -> f64 {
+        self.input.error_up() * f64::from(domain.per_unit) * (1.0 + 1e-6)
+    }
+
+    fn lattice(&self, watch: Watch<'_>) -> Result<Field, BuildError> {
+        let Self { kind, options, .. } = *self;
+        let domain = Domain::of(&self.surface, options.margin, options.bytes as usize)?;
+        let truth = Truth::new(self.input.mesh, domain, kind, self.sides);
+        watch.step(5, 100)?;
+        let samples = Samples::of(&truth, &domain, watch.part(0.05, 0.35))?;
+        let codes = Codes::of(&truth, &domain, &samples);
+        watch.step(40, 100)?;
+        let stored = Stored::new(self.off(&domain), codes.step);
+        let (slack, floor) = (of_field(SLACK, &domain), of_field(FLOOR, &domain));
+        let cells = 0..domain.cell_count();
+        let asked: Vec<[u32; 2]> = (cells.into_par_iter())
+            .map(|cell| {
+                let Errors { low, high } = codes.errors(&domain, &samples, cell, kind);
+                stored.up(Errors { low: low + slack, high: high + slack })
+            })
+            .collect();
+        let mut books = Books::of(&asked, &codes.weights);
+        let proofs = watch.part(0.4, 1.0).map(domain.cell_count(), |cell| {
+            let corner = DVec3::from(domain.cell(cell).map(|at| at as f64)) * CELL;
+            let wanted = stored.errors(books.errors(cell));
+            let boxed = [corner, DVec3::splat(CELL)];
+            Prover::cell(&truth, codes.function(&domain, cell), boxed, wanted, floor)
+        })?;
+        let proved = |(cell, proof): (usize, &Proof)| match proof.is_widened {
+            true => stored.up(proof.errors),
+            false => books.errors(cell),
+        };
+        let needed: Vec<[u32; 2]> = proofs.iter().enumerate().map(proved).collect();
+        books.hold(&needed);
+        let body = section(&domain, kind, &codes, &books)
+            .ok_or(BuildError::FieldTooWide { kind: kind.name() })?;
+        let mut found = Widths::default();
+        for cell in 0..domain.cell_count() {
+            let [low, high] = books.errors(cell).map(f64::from);
+            found.join(widths(&codes, &domain, &samples, cell, kind, Errors { low, high }));
+        }
+        let has_doubt = |cell: &usize| {
+            let is_in_doubt = |sample: &super::samples::Sample| sample.side == Side::Undecided;
+            proofs[*cell].is_undecided || samples.cells[*cell].iter().any(is_in_doubt)
+        };
+        let in_units = 1.0 / f64::from(domain.per_unit);
+        let largest = needed.iter().flatten().max().map_or(0.0, |&error| f64::from(error));
+        let [mean_width, largest_width] = found.found().map(|width| width * in_units);
+        let report = SdfReport {
+            kind,
+            layout: SdfLayout::Lattice,
+            lacks_sides: false,
+            cells: domain.cells,
+            cell_count: domain.cell_count(),
+            steps: 1,
+            bytes: bytes(domain.cells),
+            mean_width,
+            other_width: None,
+            largest_width,
+            largest_error: largest * in_units,
+            undecided: (0..domain.cell_count()).filter(has_doubt).count(),
+            boxes: proofs.iter().map(|proof| proof.boxes).sum(),
+            widened: proofs.iter().filter(|proof| proof.is_widened).count(),
+            time: Duration::ZERO,
+        };
+        Ok(Field { body, report })
+    }
+
+    /// `None` if the field does not fit the numbers of a tree.
+    fn tree(&self, watch: Watch<'_>) -> Result<Option<Field>, BuildError> {
+        let Self { kind, options, .. } = *self;
+        let domain = Domain::of_tree(&self.surface, options.margin, options.bytes as usize)?;
+        let truth = Truth::new(self.input.mesh, domain, kind, self.sides);
+        watch.step(2, 100)?;
+        let watch = watch.part(0.02, 1.0);
+        let off = self.off(&domain);
+        let Some(tree) = tree::build(&truth, &domain, off, options.bytes as usize, watch)? else {
+            return Ok(None);
+        };
+        let in_units = 1.0 / f64::from(domain.per_unit);
+        let [mean_width, largest_width] = tree.widths.found().map(|width| width * in_units);
+        let report = SdfReport {
+            kind,
+            layout: SdfLayout::Tree,
+            lacks_sides: false,
+            cells: domain.cells,
+            cell_count: tree.leaves,
+            steps: tree.steps,
+            bytes: tree.section.len(),
+            mean_width,
+            other_width: None,
+            largest_width,
+            largest_error: f64::from(tree.largest) * in_units,
+            undecided: tree.undecided,
+            boxes: tree.boxes,
+            widened: tree.widened,
+            time: Duration::ZERO,
+        };
+        Ok(Some(Field { body: tree.section, report }))
+    }
 }

@@ -10,15 +10,10 @@ use super::function::Trilinear;
 use super::prove::Errors;
 use super::samples::{Sample, Samples};
 use super::truth::{Side, Truth};
+use super::widths::{NEAR, Widths, weight};
 use meshsweep_core::SdfKind;
 use meshsweep_core::internal::sdf::format::layout::{MOST_BASE, MOST_STEP};
 use rayon::prelude::*;
-
-/// Part of the diagonal within which most questions are.
-pub(super) const NEAR: f64 = 0.1;
-
-/// Weight of questions farther out.
-const FAR_WEIGHT: f64 = 0.05;
 
 /// Weight of a cell without questions.
 const LEAST_WEIGHT: f64 = 1e-3;
@@ -43,16 +38,6 @@ pub(super) struct Codes {
 struct Limits {
     least: Vec<f32>,
     most: Vec<f32>,
-}
-
-/// How much a sample counts.
-pub(super) fn weight(sample: Sample, kind: SdfKind, near: f64) -> f64 {
-    match (sample.side, kind) {
-        (Side::Inside, SdfKind::Solid) => 0.0,
-        (Side::Inside, SdfKind::Signed) => 1.0,
-        _ if f64::from(sample.distance) <= near => 1.0,
-        _ => FAR_WEIGHT,
-    }
 }
 
 /// Distance at a corner.
@@ -219,8 +204,7 @@ fn errors(corners: &[f64; 8], limits: &Limits, steps: usize) -> Errors {
     Errors { low: f64::from(low), high: f64::from(high) }
 }
 
-/// The mean and the largest width of intervals with these errors, at the samples of weight 1, and
-/// the number of those samples.
+/// The widths of a cell's intervals with these errors.
 pub(super) fn widths(
     codes: &Codes,
     domain: &Domain,
@@ -228,22 +212,15 @@ pub(super) fn widths(
     cell: usize,
     kind: SdfKind,
     of: Errors,
-) -> (f64, f64, usize) {
-    let near = NEAR * domain.diagonal;
-    let (mut sum, mut most, mut count) = (0.0, 0f64, 0);
+) -> Widths {
+    let mut found = Widths::default();
     let corners = codes.corners(domain, cell);
     values(&corners, samples.steps, |start, from, rise| {
         for (at, &sample) in samples.cells[cell][start..=start + samples.steps].iter().enumerate() {
-            if weight(sample, kind, near) == 1.0 {
-                let value = f64::from(from + rise * at as f32);
-                let low = value - of.low;
-                let low = if kind == SdfKind::Signed { low } else { low.max(0.0) };
-                let width = value + of.high - low;
-                sum += width;
-                most = most.max(width);
-                count += 1;
-            }
+            let value = f64::from(from + rise * at as f32);
+            let interval = [value - of.low, value + of.high];
+            found.add(sample, kind, NEAR * domain.diagonal, interval, 1.0);
         }
     });
-    (sum, most, count)
+    found
 }

@@ -8,12 +8,15 @@
 use crate::error::BuildError;
 use crate::geom::Bounds;
 use glam::DVec3;
-use meshsweep_core::internal::sdf::format::layout::{CELL_UNITS, MOST_CELLS, SDF_BYTES};
+use meshsweep_core::internal::sdf::format::layout::{CELL_UNITS, MOST_CELLS, SDF_BYTES, tree};
 
-/// Units along each axis of a cell.
+/// Units along each axis of a lattice's cell.
 pub(super) const CELL: f64 = CELL_UNITS as f64;
 
-/// Where the field's cells are.
+/// Units along each axis of a tree's root cell.
+pub(super) const ROOT: f64 = (1u32 << tree::ROOT_BITS) as f64;
+
+/// Where the field's cells are: those of a lattice, or the root cells of a tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Domain {
     /// Corner 0 of the lattice is half a unit above, input units.
@@ -22,6 +25,8 @@ pub(super) struct Domain {
     pub per_unit: f32,
     /// Its inverse, rounded.
     pub unit: f32,
+    /// Units along each axis of a cell.
+    pub side: f64,
     /// Cells along each axis.
     pub cells: [usize; 3],
     /// Diagonal of the mesh's box, units.
@@ -38,6 +43,34 @@ fn cells(size: DVec3, side: f64) -> [usize; 3] {
     size.to_array().map(|size| (size / side).ceil().max(1.0) as usize)
 }
 
+/// The side of a tree's root cells that fills least beside a box: such that a side of the box is a
+/// whole number of them. The longest side of the box has three to five, if so many have room in the
+/// bytes: fewer are halved too seldom.
+fn root_side(size: DVec3, most_bytes: usize) -> f64 {
+    let longest = size.max_element();
+    let mut best = (f64::INFINITY, longest);
+    for most in [5, 2, 1] {
+        let sides = (1..=5).flat_map(|n| (size / f64::from(n)).to_array());
+        for side in sides.filter(|side| *side > 0.0) {
+            let of = cells(size, side * (1.0 + 1e-9));
+            let count: usize = of.iter().product();
+            let along = of.into_iter().max().unwrap_or(1);
+            let has_room = 8 * tree::ENTRY_BYTES * count <= most_bytes;
+            if along > most || (most == 5 && along < 3) || (most > 1 && !has_room) {
+                continue;
+            }
+            let volume = count as f64 * (side / longest).powi(3);
+            if volume < 0.98 * best.0 {
+                best = (volume, side * (1.0 + 1e-9));
+            }
+        }
+        if best.0.is_finite() {
+            break;
+        }
+    }
+    best.1
+}
+
 /// The largest step of f32 numbers in a box: corners of the lattice are off by half of it.
 fn step(bounds: &Bounds) -> f64 {
     let largest = bounds.low.abs().max(bounds.high.abs()).max_element();
@@ -52,6 +85,39 @@ impl Domain {
     /// # Errors
     /// [`BuildError::NegativeMargin`], [`BuildError::FieldUnit`], [`BuildError::MarginTooLarge`].
     pub fn of(bounds: &Bounds, margin: Option<f64>, most_bytes: usize) -> Result<Self, BuildError> {
+        Self::about(bounds, margin, CELL, |size| {
+            let fits = |side: f64| {
+                let cells = cells(size, side);
+                cells.iter().all(|&n| n <= usize::from(MOST_CELLS)) && bytes(cells) <= most_bytes
+            };
+            // One cell always fits. Halved until f64 tells no more.
+            let (mut least, mut side) = (0.0, size.max_element());
+            for _ in 0..60 {
+                let middle = 0.5 * (least + side);
+                *(if fits(middle) { &mut side } else { &mut least }) = middle;
+            }
+            side
+        })
+    }
+
+    /// The same of a tree: root cells of the side that [`root_side`] finds.
+    ///
+    /// # Errors
+    /// As of a lattice.
+    pub fn of_tree(
+        bounds: &Bounds,
+        margin: Option<f64>,
+        most_bytes: usize,
+    ) -> Result<Self, BuildError> {
+        Self::about(bounds, margin, ROOT, |size| root_side(size, most_bytes))
+    }
+
+    fn about(
+        bounds: &Bounds,
+        margin: Option<f64>,
+        units: f64,
+        side: impl FnOnce(DVec3) -> f64,
+    ) -> Result<Self, BuildError> {
         let diagonal = (bounds.high - bounds.low).length();
         let margin = margin.unwrap_or(0.1 * diagonal);
         if margin.is_nan() || margin < 0.0 {
@@ -64,17 +130,8 @@ impl Domain {
         }
         // Room for corner 0 to be a number of f32, and for the rounding of the unit.
         let size = size * (1.0 + 1e-5) + 2.0 * step(&bounds);
-        let fits = |side: f64| {
-            let cells = cells(size, side);
-            cells.iter().all(|&n| n <= usize::from(MOST_CELLS)) && bytes(cells) <= most_bytes
-        };
-        // One cell always fits. Halved until f64 tells no more.
-        let (mut least, mut side) = (0.0, size.max_element());
-        for _ in 0..60 {
-            let middle = 0.5 * (least + side);
-            *(if fits(middle) { &mut side } else { &mut least }) = middle;
-        }
-        let per_unit = (CELL / side) as f32;
+        let side = side(size);
+        let per_unit = (units / side) as f32;
         let unit = (1.0 / f64::from(per_unit)) as f32;
         if !(per_unit.is_normal() && unit.is_normal()) {
             return Err(BuildError::FieldUnit { side: size.max_element() });
@@ -82,13 +139,13 @@ impl Domain {
         let cells = cells(size, side);
         let middle = 0.5 * (bounds.low + bounds.high);
         // Corner 0 is half a unit above the origin.
-        let whole = (DVec3::from(cells.map(|n| n as f64)) * CELL + 1.0) / f64::from(per_unit);
+        let whole = (DVec3::from(cells.map(|n| n as f64)) * units + 1.0) / f64::from(per_unit);
         let origin = (middle - 0.5 * whole).to_array().map(|x| x as f32);
         if !origin.iter().all(|x| x.is_finite()) {
             return Err(BuildError::MarginTooLarge);
         }
-        let domain =
-            Self { origin, per_unit, unit, cells, diagonal: diagonal * f64::from(per_unit) };
+        let diagonal = diagonal * f64::from(per_unit);
+        let domain = Self { origin, per_unit, unit, side: units, cells, diagonal };
         let ends = [bounds.low, bounds.high].map(|p| domain.place(p));
         let top = domain.size();
         let is_within = ends[0].min_element() >= 0.0 && ends[1].cmple(top).all();
@@ -111,7 +168,7 @@ impl Domain {
 
     /// The domain's upper corner.
     fn size(&self) -> DVec3 {
-        DVec3::from(self.cells.map(|n| n as f64)) * CELL
+        DVec3::from(self.cells.map(|n| n as f64)) * self.side
     }
 
     pub fn cell_count(&self) -> usize {

@@ -5,9 +5,9 @@ use super::codes::Codes;
 use super::domain::Domain;
 use super::prove::Errors;
 use super::region::MARGIN;
-use meshsweep_core::SdfKind;
 use meshsweep_core::internal::sdf::format::SdfHeader;
 use meshsweep_core::internal::sdf::format::layout::{BOOK, value_loss};
+use meshsweep_core::{SdfKind, SdfLayout};
 
 /// From the errors of the trilinear function to those that are stored, units.
 #[derive(Clone, Copy, Debug)]
@@ -95,6 +95,8 @@ pub(super) fn section(
         base: codes.base,
         step: codes.step,
         kind,
+        layout: SdfLayout::Lattice,
+        steps: 0,
         cells: domain.cells.map(|count| count as u8),
         low,
         high,

@@ -1,4 +1,4 @@
-//! The field's function in a cell.
+//! The function of a cell: trilinear in a lattice, of a leaf in a tree.
 
 use super::domain::CELL;
 use glam::DVec3;
@@ -13,7 +13,13 @@ pub(super) struct Trilinear {
     xyz: f64,
 }
 
-/// A linear function about the centre of a box, and how far the trilinear one is from it.
+/// A function in a cell.
+pub(super) trait Function {
+    /// About the centre of a box, which counts from the cell's least corner, with these half sides.
+    fn about(&self, centre: DVec3, half: DVec3) -> Linear;
+}
+
+/// A linear function about the centre of a box, and how far the cell's is from it at most.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Linear {
     pub value: f64,
@@ -34,9 +40,10 @@ impl Trilinear {
             xyz: xyz / (CELL * CELL * CELL),
         }
     }
+}
 
-    /// About the centre of a box with these half sides.
-    pub fn about(&self, centre: DVec3, half: DVec3) -> Linear {
+impl Function for Trilinear {
+    fn about(&self, centre: DVec3, half: DVec3) -> Linear {
         let DVec3 { x, y, z } = centre;
         let pairs = DVec3::new(y * z, z * x, x * y);
         let twist = self.twist + self.xyz * centre;

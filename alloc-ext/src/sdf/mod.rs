@@ -1,4 +1,5 @@
-//! The distance field: a lattice of distances, and for each cell errors that are proved.
+//! The distance field: a lattice of distances, or a tree of functions, and for each cell errors that
+//! are proved.
 //!
 //! ```text
 //! domain    cells and units, from a number of bytes
@@ -6,12 +7,14 @@
 //! region    the triangles that can be nearest in a box
 //! truth     distances and sides
 //! samples   distances at places in each cell
-//! function  the trilinear function of a cell
+//! function  the function of a cell
 //! codes     the lattice: rounded distances, moved until cells are narrow
 //! bound     bounds of distance less function in a box
 //! prove     a cell's errors, by branch and bound
-//! books     two books of sixteen errors
-//! encode    the section's bytes
+//! books     books of errors or widths
+//! encode    the section's bytes of a lattice
+//! widths    mean and largest width of intervals
+//! tree      the stages of the other layout
 //! build     the stages, and their report
 //! ```
 //!
@@ -34,7 +37,9 @@ mod function;
 mod prove;
 mod region;
 mod samples;
+mod tree;
 mod truth;
+mod widths;
 
 pub use build::{BYTES, SdfOptions, SdfReport, build};
-pub use meshsweep_core::SdfKind;
+pub use meshsweep_core::{SdfKind, SdfLayout};

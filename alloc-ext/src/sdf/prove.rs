@@ -1,13 +1,12 @@
 //! The proof of a cell's errors, by branch and bound over boxes.
 //!
 //! A cell begins with errors that are wanted. Its box is accepted if bounds of the difference
-//! between distance and function ([`super::bound`]) show that the errors suffice; else its eight
-//! parts are looked at. A box of the least size widens the errors to what its bounds need. So the
+//! between distance and function ([`super::bound`]) show that the errors suffice; else its parts,
+//! eight of a cube, are looked at. A box of the least size widens the errors to what its bounds need. So the
 //! errors always hold; how good they are depends on the wanted ones.
 
 use super::bound::{flat, greatest, least, most, most_of_facet};
-use super::domain::CELL;
-use super::function::{Linear, Trilinear};
+use super::function::{Function, Linear};
 use super::region::{Near, Region, TIE, parts};
 use super::truth::{Side, Truth};
 use glam::DVec3;
@@ -96,9 +95,9 @@ fn needed(
 }
 
 /// The proof of one cell in progress.
-pub(super) struct Prover<'a> {
+pub(super) struct Prover<'a, F> {
     truth: &'a Truth<'a>,
-    function: Trilinear,
+    function: F,
     /// The cell's least corner.
     corner: DVec3,
     /// Boxes of no larger radius are not halved.
@@ -107,12 +106,13 @@ pub(super) struct Prover<'a> {
     proof: Proof,
 }
 
-impl<'a> Prover<'a> {
-    /// Proves the errors of a cell, which are the wanted ones or larger.
+impl<'a, F: Function> Prover<'a, F> {
+    /// Proves the errors of a cell, which are the wanted ones or larger. The cell's least corner and
+    /// its sides are in units.
     pub fn cell(
         truth: &'a Truth<'a>,
-        function: Trilinear,
-        corner: DVec3,
+        function: F,
+        [corner, sides]: [DVec3; 2],
         wanted: Errors,
         floor: f64,
     ) -> Proof {
@@ -124,7 +124,7 @@ impl<'a> Prover<'a> {
             nears: Vec::new(),
             proof: Proof { errors: wanted, ..Proof::default() },
         };
-        let half = DVec3::splat(0.5 * CELL);
+        let half = 0.5 * sides;
         let mut region = truth.facets.gather([corner + half, half], true, &mut prover.nears);
         prover.visit(&mut region, 0, None);
         let Errors { low, high } = prover.proof.errors;
@@ -162,8 +162,8 @@ impl<'a> Prover<'a> {
             self.proof.is_undecided |= side == Some(Side::Undecided);
             return;
         }
-        let half = 0.5 * region.half;
-        for centre in parts(region.centre, region.half) {
+        let (half, parts) = parts(region.centre, region.half);
+        for centre in parts {
             let end = self.nears.len();
             let boxed = [centre, half];
             let mut part = self.truth.facets.narrow(region, start..end, boxed, &mut self.nears);

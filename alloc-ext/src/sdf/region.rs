@@ -112,9 +112,16 @@ pub(super) fn corners(half: DVec3) -> [DVec3; 8] {
     ]
 }
 
-/// The eight parts of a box, by their centres.
-pub(super) fn parts(centre: DVec3, half: DVec3) -> [DVec3; 8] {
-    corners(0.5 * half).map(|corner| centre + corner)
+/// The parts of a box, halved along its long sides: their half sides and their centres. A cube has
+/// eight.
+pub(super) fn parts(centre: DVec3, half: DVec3) -> (DVec3, impl Iterator<Item = DVec3>) {
+    let is_long = half.cmpgt(DVec3::splat(0.6 * half.max_element()));
+    let of_part = DVec3::select(is_long, 0.5 * half, half);
+    let long = is_long.bitmask() as usize;
+    let corners = corners(of_part).into_iter().enumerate();
+    let kept = corners.filter(move |(corner, _)| corner & !long == 0);
+    let way = move |corner: DVec3| DVec3::select(is_long, corner, DVec3::ZERO);
+    (of_part, kept.map(move |(_, corner)| centre + way(corner)))
 }
 
 impl Region {

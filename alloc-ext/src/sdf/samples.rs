@@ -53,7 +53,7 @@ impl Samples {
         let steps = if domain.cell_count() <= FEW_CELLS { 6 } else { 4 };
         let cells = watch.map(domain.cell_count(), |cell| {
             let corner = DVec3::from(domain.cell(cell).map(|at| at as f64)) * CELL;
-            of_cell(truth, corner, steps)
+            of_box(truth, corner, DVec3::splat(CELL), steps)
         })?;
         Ok(Self { steps, cells })
     }
@@ -66,20 +66,22 @@ impl Samples {
     }
 }
 
-fn of_cell(truth: &Truth<'_>, corner: DVec3, steps: usize) -> Vec<Sample> {
+/// The samples of a box with this least corner and these sides, x fastest: an even number of steps
+/// along each side.
+pub(super) fn of_box(truth: &Truth<'_>, corner: DVec3, sides: DVec3, steps: usize) -> Vec<Sample> {
     let none = Sample { distance: 0.0, side: Side::Outside };
     let mut samples = vec![none; side_of(steps).pow(3)];
     let mut nears: Vec<Near> = Vec::new();
-    let half = DVec3::splat(0.5 * CELL);
+    let half = 0.5 * sides;
     let whole = truth.facets.gather([corner + half, half], false, &mut nears);
     let count = nears.len();
     // Blocks of two steps along each axis: their lists are short.
     let blocks = steps / 2;
-    let step = CELL / steps as f64;
+    let step = sides / steps as f64;
     for block in 0..blocks * blocks * blocks {
         let block = [block % blocks, block / blocks % blocks, block / (blocks * blocks)];
         let middle = DVec3::from(block.map(|at| (2 * at + 1) as f64)) * step;
-        let boxed = [corner + middle, DVec3::splat(step)];
+        let boxed = [corner + middle, step];
         let region = truth.facets.narrow(&whole, 0..count, boxed, &mut nears);
         let end = nears.len();
         let side = |nears: &[Near], p: DVec3, distance: f64| {

@@ -6,7 +6,7 @@ use super::setting::{How, Question, Setting};
 use crate::builder::Recipe;
 use crate::distances::Distances;
 use meshsweep_core::{
-    Blob, Budget, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Hint, Interval, QueryError,
+    Blob, Budget, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Hint, QueryError,
     ScratchEntry, Work,
 };
 use std::hint::black_box;

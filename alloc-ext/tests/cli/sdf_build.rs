@@ -29,7 +29,8 @@ fn build(mesh: &Path, options: &[&str]) -> String {
 fn a_field_is_reported_with_its_kind_and_its_widths_and_there_is_no_tree() {
     let directory = scratch("sdf_report");
     let mesh = block(&directory, false);
-    let text = build(&mesh, &["--sdf-kind", "solid", "--sdf-margin", "0.5"]);
+    let options = ["--sdf-kind", "solid", "--sdf-margin", "0.5", "--sdf-layout", "lattice"];
+    let text = build(&mesh, &options);
     for wanted in [
         "distances to the solid, 0 inside",
         "cells of 2048 units",
@@ -45,6 +46,30 @@ fn a_field_is_reported_with_its_kind_and_its_widths_and_there_is_no_tree() {
     assert_eq!(field["kind"], "signed");
     assert!(field["widest_cell"].as_f64().unwrap() > 0.0);
     assert_eq!(json["options"], "--for sdf --sdf 1024");
+}
+
+#[test]
+fn the_narrower_layout_is_kept_and_the_other_is_named() {
+    let directory = scratch("sdf_layouts");
+    let mesh = block(&directory, false);
+    let field = |options: &[&str]| -> Value {
+        serde_json::from_str(&build(&mesh, &[options, &["--json"]].concat())).unwrap()
+    };
+    let best = build(&mesh, &["--sdf-kind", "solid"]);
+    let best_layout = &field(&["--sdf-kind", "solid"])["contents"]["sdf"]["layout"];
+    assert_eq!(best_layout, "tree");
+    assert!(best.contains("tree kept: intervals of a lattice of as many bytes"), "{best}");
+    assert!(best.contains("steps at most") && best.contains("root cells of 65536"), "{best}");
+    for layout in ["lattice", "tree"] {
+        let one = field(&["--sdf-layout", layout]);
+        assert_eq!(one["contents"]["sdf"]["layout"], layout);
+        assert_eq!(one["options"], format!("--for sdf --sdf 1024 --sdf-layout {layout}"));
+        let is_constant = one["contents"]["sdf"]["steps"] == 1;
+        assert_eq!(is_constant, layout == "lattice");
+    }
+    let blob = mesh.with_extension("msw");
+    let told = ok(["verify", arg(&blob), arg(&mesh)]);
+    assert!(told.contains("proved: distance field"), "{told}");
 }
 
 #[test]

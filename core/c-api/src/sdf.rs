@@ -6,7 +6,7 @@ use crate::answer::{FieldC, FieldGradientC, UnitsC, VerdictC};
 use crate::memory::{AnyBits, In, Out, Storage, View};
 
 /// Words of `msw_sdf`.
-pub const SDF_WORDS: usize = if cfg!(target_pointer_width = "64") { 15 } else { 24 };
+pub const SDF_WORDS: usize = if cfg!(target_pointer_width = "64") { 18 } else { 28 };
 
 /// `msw_sdf`.
 pub type SdfStorage = Storage<Sdf<'static>, SDF_WORDS>;

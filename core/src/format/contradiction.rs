@@ -39,6 +39,8 @@ pub enum Contradiction {
     FieldStep,
     /// Origin or unit of a distance field.
     FieldUnit,
+    /// Entries of a distance field's tree.
+    FieldTree,
     /// Size of the section table.
     SectionTableSize,
     /// Bytes after the last section.
@@ -113,6 +115,7 @@ impl core::fmt::Display for Contradiction {
             Self::FieldKind => "the kind of the distance field",
             Self::FieldStep => "base or step of the distance field's codes",
             Self::FieldUnit => "origin or unit of the distance field",
+            Self::FieldTree => "entries of the distance field's tree",
             Self::SectionTableSize => "size of the section table",
             Self::BytesAfterSections => "bytes after the last section",
             Self::EmptyTree => "an empty tree",

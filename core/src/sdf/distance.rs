@@ -1,6 +1,6 @@
 //! The questions of the distance field in input units.
 
-use super::format::{Sdf, SdfKind};
+use super::format::{Sdf, SdfKind, SdfLayout};
 use super::place::Place;
 use super::value::SLOPE_BITS;
 use crate::num::{each, greater, lesser, sqrt_approx};
@@ -51,7 +51,8 @@ impl Sdf<'_> {
     /// nearest place of it. The interval is √(e² + a²) to e + b, from e if a is below 0. Its upper
     /// end may be infinite.
     ///
-    /// Cost: one look-up, the same for every point of the field; no scratch memory. Without
+    /// Cost: one look-up, the same for every point of a lattice, and [`steps`](Sdf::steps) entries
+    /// at most of a tree; no scratch memory. Without
     /// floating point the conversions cost several times the look-up:
     /// [`distance_in_units`](Self::distance_in_units) needs none. Source: no paper; the module's
     /// text tells why cells have errors of their own.
@@ -61,18 +62,21 @@ impl Sdf<'_> {
     /// from the field's least corner.
     #[inline(never)]
     pub fn distance(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
-        Ok(match self.place(point)? {
-            Place::Within(place) => self.answer(self.within_field(self.value(place)?)),
+        let bounds = match self.place(point)? {
+            Place::Lattice(place) => self.value(place)?,
+            Place::Tree(place) => self.tree_value(place)?,
             Place::Beyond(place, beyond) => {
-                self.answer(self.outside_field(bounds_beyond(self.value(place)?, beyond)))
+                let bounds = bounds_beyond(self.value_of_any(place)?, beyond);
+                return Ok(self.answer(self.outside_field(bounds)));
             }
-        })
+        };
+        Ok(self.answer(self.within_field(bounds)))
     }
 
     /// [`distance`](Self::distance), and the gradient at the point: the direction in which the
     /// distance rises the most, of a length near 1.
     ///
-    /// The gradient is that of the trilinear function. It jumps between cells and carries no
+    /// The gradient is that of the cell's function. It jumps between cells and carries no
     /// guarantee: use it as a direction, of a force or of a step. It is short, or zero, where nearest
     /// points lie on opposite sides, and means nothing inside of a field of kind
     /// [`Solid`](SdfKind::Solid). Outside of the field it leads from about the nearest point of the
@@ -89,12 +93,19 @@ impl Sdf<'_> {
     ) -> Result<(FieldDistance, [f32; 3]), QueryError> {
         let slopes = |slopes: [i32; 3]| each(slopes, |slope| slope as f32 * SLOPE);
         Ok(match self.place(point)? {
-            Place::Within(place) => {
+            Place::Lattice(place) => {
                 let (bounds, gradient) = self.value_and_slopes(place)?;
                 (self.answer(self.within_field(bounds)), slopes(gradient))
             }
+            Place::Tree(place) => {
+                let (bounds, gradient) = self.tree_value_and_slopes(place)?;
+                (self.answer(self.within_field(bounds)), slopes(gradient))
+            }
             Place::Beyond(place, beyond) => {
-                let (bounds @ [_, far], gradient) = self.value_and_slopes(place)?;
+                let (bounds @ [_, far], gradient) = match self.layout {
+                    SdfLayout::Lattice => self.value_and_slopes(place)?,
+                    SdfLayout::Tree => self.tree_value_and_slopes(place)?,
+                };
                 let found = self.answer(self.outside_field(bounds_beyond(bounds, beyond)));
                 (found, away(beyond, far as f32, slopes(gradient)))
             }

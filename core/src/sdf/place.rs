@@ -1,6 +1,6 @@
 //! From a point to whole units of the field.
 
-use super::format::Sdf;
+use super::format::{Sdf, SdfLayout};
 use crate::num::{each, greater, lesser};
 use crate::query::QueryError;
 
@@ -10,11 +10,19 @@ const FARTHEST: f32 = (1u64 << 60) as f32;
 
 /// Where a point is.
 pub(super) enum Place {
-    /// In the field: whole units from corner 0 of the lattice, below the field's size on each axis.
-    Within([u32; 3]),
+    /// In a lattice: whole units from its corner 0, below the field's size on each axis.
+    Lattice([u32; 3]),
+    /// The same in a tree.
+    Tree([u32; 3]),
     /// Outside: the nearest such place, and how far along each axis the point is beyond the field,
     /// units: below 0 on the lower side.
     Beyond([u32; 3], [f32; 3]),
+}
+
+/// Whether each coordinate is below a size.
+#[inline(always)]
+pub(super) fn are_below([x, y, z]: [u32; 3], [width, depth, height]: [u32; 3]) -> bool {
+    x < width && y < depth && z < height
 }
 
 impl Sdf<'_> {
@@ -23,12 +31,15 @@ impl Sdf<'_> {
     #[inline(always)]
     pub(super) fn place(&self, point: [f32; 3]) -> Result<Place, QueryError> {
         let [x, y, z] = self.unrounded(point);
-        let [width, depth, height] = self.units;
         // A negative number becomes 0, and NaN is not above 0.
         let whole = [x as u32, y as u32, z as u32];
-        let [a, b, c] = whole;
-        if x >= 0.0 && y >= 0.0 && z >= 0.0 && a < width && b < depth && c < height {
-            return Ok(Place::Within(whole));
+        if x >= 0.0 && y >= 0.0 && z >= 0.0 {
+            if are_below(whole, self.lattice) {
+                return Ok(Place::Lattice(whole));
+            }
+            if self.layout == SdfLayout::Tree && are_below(whole, self.units) {
+                return Ok(Place::Tree(whole));
+            }
         }
         self.beyond(point)
     }
@@ -73,7 +84,7 @@ impl Sdf<'_> {
     /// [`QueryError::NotFinite`]; [`QueryError::OutOfDomain`] outside of the field.
     pub fn units_of(&self, point: [f32; 3]) -> Result<[i32; 3], QueryError> {
         match self.place(point)? {
-            Place::Within(whole) => Ok(each(whole, u32::cast_signed)),
+            Place::Lattice(whole) | Place::Tree(whole) => Ok(each(whole, u32::cast_signed)),
             Place::Beyond(..) => Err(QueryError::OutOfDomain),
         }
     }

@@ -1,7 +1,8 @@
 //! The questions of the distance field in whole units, for processors without floating point.
 
-use super::format::Sdf;
 use super::format::layout::MOST_BASE;
+use super::format::{Sdf, SdfLayout};
+use super::place::are_below;
 use crate::num::each;
 use crate::query::QueryError;
 
@@ -18,7 +19,7 @@ pub struct UnitDistance {
 
 impl Sdf<'_> {
     /// Bounds of the distance of a place, both in [units](Sdf::unit). Places count from corner 0 of
-    /// the lattice, half a unit above [`bounds`](Sdf::bounds)`()[0]` along each axis.
+    /// the field, half a unit above [`bounds`](Sdf::bounds)`()[0]` along each axis.
     ///
     /// The bounds hold of the place itself: if a point was rounded to it, add a unit on each side.
     /// The distances mean the same as those of [`distance`](Sdf::distance), and no rounding of f32 is
@@ -26,16 +27,27 @@ impl Sdf<'_> {
     /// `upper` is below 0; of kind solid only outside is told. Outside of the field, the greatest of
     /// the coordinates' distances from it stands below, and their sum above.
     ///
-    /// Cost: one look-up in integers, the same for every place of the field; no scratch memory.
+    /// Cost: one look-up in integers, the same for every place of a lattice, and
+    /// [`steps`](Sdf::steps) entries at most of a tree; no scratch memory.
     ///
     /// # Errors
     /// [`QueryError::OutOfDomain`] if a coordinate is beyond 2^28.
     #[inline(never)]
     pub fn distance_in_units(&self, place: [i32; 3]) -> Result<UnitDistance, QueryError> {
         let whole = each(place, i32::cast_unsigned);
-        let ([x, y, z], [width, depth, height]) = (whole, self.units);
-        if x < width && y < depth && z < height {
+        if are_below(whole, self.lattice) {
             let [lower, upper] = self.value(whole)?;
+            return Ok(UnitDistance { lower, upper });
+        }
+        self.distance_elsewhere(place)
+    }
+
+    /// In a tree, or outside.
+    #[inline(never)]
+    fn distance_elsewhere(&self, place: [i32; 3]) -> Result<UnitDistance, QueryError> {
+        let whole = each(place, i32::cast_unsigned);
+        if self.layout == SdfLayout::Tree && are_below(whole, self.units) {
+            let [lower, upper] = self.tree_value(whole)?;
             return Ok(UnitDistance { lower, upper });
         }
         self.distance_beyond(place)
@@ -51,9 +63,11 @@ impl Sdf<'_> {
     #[inline(never)]
     pub fn gradient_in_units(&self, place: [i32; 3]) -> Result<[i32; 3], QueryError> {
         let whole = each(place, i32::cast_unsigned);
-        let ([x, y, z], [width, depth, height]) = (whole, self.units);
-        if x < width && y < depth && z < height {
+        if are_below(whole, self.lattice) {
             return self.slopes(whole);
+        }
+        if self.layout == SdfLayout::Tree && are_below(whole, self.units) {
+            return Ok(self.tree_value_and_slopes(whole)?.1);
         }
         Err(QueryError::OutOfDomain)
     }
@@ -73,7 +87,7 @@ impl Sdf<'_> {
             greatest = beyond.max(greatest);
             sum = beyond.wrapping_add(sum);
         }
-        let [lower, upper] = self.value(nearest)?;
+        let [lower, upper] = self.value_of_any(nearest)?;
         // Outside of the field no distance is negative. The nearest place may be a unit within the field along each axis: a diagonal below 2.
         let lower = lower.wrapping_sub(2).max(greatest.wrapping_sub(1));
         Ok(UnitDistance { lower, upper: upper.max(0).wrapping_add(sum) })

@@ -1,4 +1,4 @@
-//! The interval at a place of the field, in integers.
+//! The interval at a place of a lattice, in integers.
 //!
 //! Codes have 8 bits. Interpolation along x and then y adds 11 bits each and loses nothing: 30 bits.
 //! Along z the difference first drops its last 11 bits, so that the product fits 32. The upper 18
@@ -6,8 +6,8 @@
 //! at most [`value_loss`](super::format::layout::value_loss) units too small. The builder adds these
 //! to the errors above.
 
-use super::format::Sdf;
-use super::format::layout::{CELL_UNITS, FRACTION_BITS, VALUE_BITS};
+use super::format::layout::{BOOK, CELL_UNITS, FRACTION_BITS, VALUE_BITS};
+use super::format::{Sdf, SdfLayout};
 use crate::num::{each, greater};
 use crate::query::QueryError;
 
@@ -69,7 +69,7 @@ fn lerp([s, t]: [i32; 2], place: i32) -> i32 {
 }
 
 impl Sdf<'_> {
-    /// Lower and upper bound of the distance at a place of the field, units.
+    /// Lower and upper bound of the distance at a place of a lattice, units.
     #[inline(always)]
     pub(super) fn value(&self, place: [u32; 3]) -> Result<[i32; 2], QueryError> {
         self.bounds_at(place).ok_or(QueryError::Unchecked)
@@ -78,6 +78,12 @@ impl Sdf<'_> {
     #[inline(always)]
     fn bounds_at(&self, place: [u32; 3]) -> Option<[i32; 2]> {
         self.interval_at(&self.corners(place)?)
+    }
+
+    /// The same of either layout.
+    #[inline(always)]
+    pub(super) fn value_of_any(&self, place: [u32; 3]) -> Result<[i32; 2], QueryError> {
+        if self.layout == SdfLayout::Tree { self.tree_value(place) } else { self.value(place) }
     }
 
     /// The bounds and the gradient, in 2^-15.
@@ -98,8 +104,8 @@ impl Sdf<'_> {
         let steps = (value >> (2 * FRACTION_BITS - VALUE_BITS)).wrapping_mul(self.step);
         let distance = self.base.wrapping_add(steps >> VALUE_BITS);
         let errors = *self.errors.get(corners.cell as usize)?;
-        let below = u16::from_le_bytes(*self.low.get(usize::from(errors & 15))?);
-        let above = u16::from_le_bytes(*self.high.get(usize::from(errors >> 4))?);
+        let below = u16::from_le_bytes(*self.books.get(usize::from(errors & 15))?);
+        let above = u16::from_le_bytes(*self.books.get(usize::from(errors >> 4) | BOOK)?);
         Some([
             greater(distance.wrapping_sub(i32::from(below)), self.least),
             greater(distance.wrapping_add(i32::from(above)), self.least),

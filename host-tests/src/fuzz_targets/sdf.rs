@@ -7,7 +7,7 @@ use meshsweep_core::{Blob, QueryError, Sdf, SdfKind, Side};
 use meshsweep_suite::ask::sdf;
 use std::sync::OnceLock;
 
-/// Small valid blobs of fields of each kind: one cell and many.
+/// Small valid blobs of fields of each kind and layout: one cell and many.
 pub fn sdf_seeds() -> &'static [Vec<u8>] {
     static SEEDS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
     SEEDS.get_or_init(|| {
@@ -15,6 +15,9 @@ pub fn sdf_seeds() -> &'static [Vec<u8>] {
             fields::any(1, SdfKind::Surface, [1, 1, 1], 1.0),
             fields::any(2, SdfKind::Signed, [5, 4, 3], 0.001),
             fields::any(3, SdfKind::Solid, [2, 9, 1], 1e-30),
+            fields::any_tree(4, SdfKind::Surface, [1, 1, 1], 0, 1.0),
+            fields::any_tree(5, SdfKind::Signed, [2, 3, 1], 60, 0.001),
+            fields::any_tree(6, SdfKind::Solid, [3, 1, 4], 200, 1e-30),
         ]
     })
 }
@@ -30,7 +33,9 @@ pub fn ask_sdf(field: &Sdf<'_>) {
     let [least, greatest] = field.bounds();
     ask(field, least, 1e20);
     ask(field, greatest, 0.0);
-    let whole = field.cells().map(|cells| 2048 * cells.cast_signed());
+    let bits = field.layout().cell_bits();
+    let whole = field.cells().map(|cells| (cells << bits).cast_signed());
+    assert!((1..=22).contains(&field.steps()), "{}", field.steps());
     for place in [[0; 3], whole, whole.map(|x| x - 1), whole.map(|x| x / 2), [i32::MIN; 3]] {
         if let Ok(found) = field.distance_in_units(place) {
             assert!(found.lower <= found.upper, "{found:?}");

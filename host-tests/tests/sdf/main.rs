@@ -6,6 +6,7 @@ mod kernel;
 mod options;
 mod proof;
 mod size;
+mod tree;
 mod truth;
 mod with_tree;
 mod with_tree_moving;

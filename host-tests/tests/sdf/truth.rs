@@ -2,7 +2,7 @@
 
 use super::decoded::Field;
 use meshsweep::Builder;
-use meshsweep::builder::{For, SdfKind};
+use meshsweep::builder::{For, SdfKind, SdfLayout};
 use meshsweep::mesh::RawMesh;
 use meshsweep_host_tests::generate::evil::glued_blocks;
 use meshsweep_host_tests::generate::{
@@ -15,8 +15,13 @@ const POINTS: usize = 600;
 
 const KINDS: [SdfKind; 3] = [SdfKind::Surface, SdfKind::Signed, SdfKind::Solid];
 
-fn built((positions, triangles): &Triangles, kind: SdfKind, bytes: u32) -> Vec<u8> {
-    let builder = Builder::new().serve(For::Sdf).sdf_kind(kind).sdf_bytes(bytes);
+fn built(
+    (positions, triangles): &Triangles,
+    kind: SdfKind,
+    layout: SdfLayout,
+    bytes: u32,
+) -> Vec<u8> {
+    let builder = Builder::new().serve(For::Sdf).sdf_kind(kind).sdf_layout(layout).sdf_bytes(bytes);
     builder.build(RawMesh::from_f32(positions, triangles)).expect("builds").into_bytes()
 }
 
@@ -34,7 +39,7 @@ fn point(
     let triangle = triangles[rng.below(triangles.len())];
     let (a, b) = (rng.unit_f64(), rng.unit_f64());
     let (a, b) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
-    let cell = 2048.0 / field.per_unit;
+    let cell = if field.is_tree() { 8192.0 } else { 2048.0 } / field.per_unit;
     let off = cell * [0.0, 0.01, 0.3][rng.below(3)];
     [0, 1, 2].map(|k| {
         let [p, q, r] = triangle.map(|v| f64::from(positions[v as usize][k]));
@@ -91,10 +96,14 @@ fn assert_holds(name: &str, mesh: &Triangles, field: &Field, seed: u64) -> usize
 
 fn check(name: &str, mesh: &Triangles, kinds: &[SdfKind], bytes: u32) {
     for (number, &kind) in kinds.iter().enumerate() {
-        let field = Field::of(&built(mesh, kind, bytes));
-        assert_eq!(field.kind, kind as u8);
-        let count = assert_holds(&format!("{name} {kind:?}"), mesh, &field, number as u64);
-        assert!(count > POINTS / 2, "{name}: {count} points in the field");
+        for layout in SdfLayout::ALL {
+            let field = Field::of(&built(mesh, kind, layout, bytes));
+            assert_eq!(field.kind, kind as u8);
+            assert_eq!(field.is_tree(), layout == SdfLayout::Tree);
+            let name = format!("{name} {kind:?} {layout:?}");
+            let count = assert_holds(&name, mesh, &field, number as u64);
+            assert!(count > POINTS / 2, "{name}: {count} points in the field");
+        }
     }
 }
 

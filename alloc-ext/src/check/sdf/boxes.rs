@@ -16,7 +16,8 @@
 //!
 //! *Else* the distance is at most that of the centre and r.
 
-use super::parse::{CELL, Field, Trilinear};
+use super::function::Function;
+use super::parse::{Claim, Field};
 use super::sides::{Side, Sides};
 use glam::DVec3;
 
@@ -25,9 +26,8 @@ use glam::DVec3;
 /// they are others.
 const MARGIN: f64 = 1.0 / (1 << 24) as f64;
 
-/// Boxes of this radius or less are not halved, in sides of a cell: an eighth of a unit. A claim
-/// without slack stays unproved.
-const SMALLEST: f64 = 1.0 / 16_384.0;
+/// Boxes of this radius or less are not halved, units. A claim without slack stays unproved.
+const SMALLEST: f64 = 0.125;
 
 /// Boxes of one cell.
 const MOST: usize = 20_000_000;
@@ -40,15 +40,23 @@ pub(super) enum Unproved {
     Open(String),
 }
 
-/// Triangles by the cells that they come near.
+/// Most cells of the grid along its longest axis.
+const FINEST: f64 = 48.0;
+
+/// Triangles by the cells of a grid over the field that their boxes meet.
 pub(super) struct Grid {
+    /// Side of a cell, units.
+    side: f64,
     cells: [usize; 3],
     /// Those whose box meets each cell.
     of: Vec<Vec<u32>>,
 }
 
 impl Grid {
-    pub(super) fn new(triangles: &[[DVec3; 3]], cells: [usize; 3]) -> Self {
+    /// Of a field from 0 to this corner.
+    pub(super) fn new(triangles: &[[DVec3; 3]], end: DVec3) -> Self {
+        let side = end.max_element() / FINEST;
+        let cells = end.to_array().map(|end| ((end / side).ceil() as usize).max(1));
         let mut of = vec![Vec::new(); cells.into_iter().product()];
         for (number, corners) in (0..).zip(triangles) {
             let first = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -56,7 +64,7 @@ impl Grid {
                 corners.iter().fold(first, |(low, high), &p| (low.min(p), high.max(p)));
             let span = |k: usize| {
                 let last = cells[k] - 1;
-                ((low[k] / CELL) as usize).min(last)..=((high[k] / CELL) as usize).min(last)
+                ((low[k] / side) as usize).min(last)..=((high[k] / side) as usize).min(last)
             };
             for z in span(2) {
                 for y in span(1) {
@@ -66,19 +74,24 @@ impl Grid {
                 }
             }
         }
-        Self { cells, of }
+        Self { side, cells, of }
     }
 
-    /// Triangles that may be nearest somewhere in a cell, and all within twice its diagonal of its
+    /// Triangles that may be nearest somewhere in a box, and all within twice its diagonal of its
     /// centre: shells of cells are looked at until the next is too far.
-    fn near(&self, number: usize, centre: DVec3, triangles: &[[DVec3; 3]]) -> Vec<u32> {
+    fn near(&self, centre: DVec3, radius: f64, triangles: &[[DVec3; 3]]) -> Vec<u32> {
         let [cx, cy, cz] = self.cells;
-        let at = [number % cx, number / cx % cy, number / (cx * cy)];
-        let radius = 0.5 * 3f64.sqrt() * CELL;
+        let at = [0, 1, 2].map(|k| ((centre[k] / self.side) as usize).min(self.cells[k] - 1));
+        // From the centre to the nearest side of its cell, less what rounding may do.
+        let within = |k: usize| {
+            let from = centre[k] - at[k] as f64 * self.side;
+            from.min(self.side - from).max(0.0)
+        };
+        let within = (within(0).min(within(1)).min(within(2)) - MARGIN).max(0.0);
         let (mut found, mut least) = (Vec::<Seen>::new(), f64::INFINITY);
         for shell in 0..cx.max(cy).max(cz) {
             // What lies beyond the shells before is at least so far from the centre.
-            let away = (shell as f64 - 0.5) * CELL;
+            let away = (shell as f64 - 1.0) * self.side + within;
             if away > (least + 2.0 * radius).max(4.0 * radius) {
                 break;
             }
@@ -201,11 +214,11 @@ impl Cell<'_> {
         triangles: &[[DVec3; 3]],
         grid: &Grid,
     ) -> Result<usize, Unproved> {
-        let (corner, function, [low, high]) = self.field.cell(number);
-        let [low, high] = [low, high].map(|error| error - self.moved - MARGIN);
-        let half = DVec3::splat(0.5 * CELL);
+        let Claim { corner, sides, function, errors } = self.field.claim(number);
+        let [low, high] = errors.map(|error| error - self.moved - MARGIN);
+        let half = 0.5 * sides;
         let centre = corner + half;
-        let near = grid.near(number, centre, triangles);
+        let near = grid.near(centre, half.length(), triangles);
         let mut open = vec![Part { centre, half, side: None, near }];
         let mut boxes = 0;
         while let Some(part) = open.pop() {
@@ -215,7 +228,7 @@ impl Cell<'_> {
             let about = About::of(&function, part.centre - corner, part.half, [low, high]);
             let Found::Open(side) = self.look(&part, &seen, &about, triangles) else { continue };
             let r = part.half.length();
-            if r <= SMALLEST * CELL {
+            if r <= SMALLEST {
                 let at = part.centre;
                 let words = |what| {
                     format!("the errors of cell {number} {what} at {at:?}, in units of the field")
@@ -350,7 +363,7 @@ fn slab(r: f64, nearest: &Seen, seen: &[Seen], triangles: &[[DVec3; 3]]) -> Opti
 }
 
 impl About {
-    fn of(function: &Trilinear, place: DVec3, half: DVec3, [low, high]: [f64; 2]) -> Self {
+    fn of(function: &Function, place: DVec3, half: DVec3, [low, high]: [f64; 2]) -> Self {
         let (value, gradient, rest) = function.about(place, half);
         Self { value, gradient, rest, low, high }
     }

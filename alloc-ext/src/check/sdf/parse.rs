@@ -1,12 +1,13 @@
-//! The numbers of the section, and the trilinear function of a cell.
+//! The numbers of the section, and its cells.
 
+use super::function::{Bent, CELL, Function, PART, Trilinear};
 use crate::check::bytes::{Cursor, section};
 use glam::DVec3;
 
 const SDF: u32 = 28;
 
-/// Units along each axis of a cell.
-pub(super) const CELL: f64 = 2048.0;
+/// Units along each axis of a tree's root cell.
+const ROOT: f64 = 65_536.0;
 
 /// A field as the bytes say it.
 pub(super) struct Field {
@@ -20,6 +21,66 @@ pub(super) struct Field {
     high: Vec<f64>,
     codes: Vec<u8>,
     errors: Vec<u8>,
+    /// Of a tree: entries, and those that are leaves with their boxes.
+    tree: Option<(Vec<[u8; 5]>, Vec<Leaf>)>,
+}
+
+/// A leaf's entry and box: least corner, sides.
+struct Leaf {
+    entry: usize,
+    corner: DVec3,
+    sides: DVec3,
+}
+
+/// What a field says of a cell or leaf.
+pub(super) struct Claim {
+    /// The least corner of the box.
+    pub(super) corner: DVec3,
+    pub(super) sides: DVec3,
+    pub(super) function: Function,
+    /// How far the distance may be below and above the function: without what a query may lose.
+    pub(super) errors: [f64; 2],
+}
+
+/// The leaves of a tree, by a walk through all entries.
+fn leaves(entries: &[[u8; 5]], roots: [usize; 3]) -> Result<Vec<Leaf>, String> {
+    let mut open = Vec::new();
+    for entry in 0..roots.iter().product() {
+        let [x, y, _] = roots;
+        let at = [entry % x, entry / x % y, entry / (x * y)];
+        let corner = DVec3::from(at.map(|n| n as f64)) * ROOT;
+        open.push(Leaf { entry, corner, sides: DVec3::splat(ROOT) });
+    }
+    let (mut seen, mut leaves) = (0, Vec::new());
+    while let Some(leaf) = open.pop() {
+        seen += 1;
+        let &[a, b, _, kind, _] =
+            entries.get(leaf.entry).ok_or("a child that is no entry of the tree")?;
+        if kind >= 128 {
+            leaves.push(leaf);
+            continue;
+        }
+        let halved = [0, 1, 2].map(|axis| kind >> axis & 1 != 0);
+        let mut sides = leaf.sides;
+        for axis in (0..3).filter(|&axis| halved[axis]) {
+            sides[axis] *= 0.5;
+        }
+        if sides == leaf.sides || sides.min_element() < 512.0 || seen > entries.len() {
+            return Err("a node that halves no axis, or one too often".to_owned());
+        }
+        let mut child = usize::from(a) + 256 * usize::from(b);
+        let ups = |axis: usize| if halved[axis] { vec![0.0, 1.0] } else { vec![0.0] };
+        for up_z in ups(2) {
+            for up_y in ups(1) {
+                for up_x in ups(0) {
+                    let corner = leaf.corner + sides * DVec3::new(up_x, up_y, up_z);
+                    open.push(Leaf { entry: child, corner, sides });
+                    child += 1;
+                }
+            }
+        }
+    }
+    if seen == entries.len() { Ok(leaves) } else { Err("entries of no node".to_owned()) }
 }
 
 impl Field {
@@ -30,10 +91,11 @@ impl Field {
         let (per_unit, unit) = (float()?, float()?);
         let base = f64::from(cursor.uint(4)?.cast_signed());
         let step = f64::from(cursor.uint(2)?);
-        let kind = cursor.uint(2)?;
+        let (kind, layout) = (cursor.uint(1)?, cursor.uint(1)?);
         let [x, y, z] = [cursor.uint(1)?, cursor.uint(1)?, cursor.uint(1)?].map(|n| n as usize);
-        if cursor.uint(1)? != 0 || kind > 2 {
-            return Err("a byte that should be 0 is not, or the kind is unknown".to_owned());
+        let is_tree = layout == 1;
+        if (cursor.uint(1)? == 0) == is_tree || kind > 2 || layout > 1 {
+            return Err("the kind or the layout is unknown, or the steps are wrong".to_owned());
         }
         // The inverse of the real number `per_unit`, to nearest.
         if unit as f32 != (1.0 / per_unit) as f32 {
@@ -41,13 +103,23 @@ impl Field {
         }
         let mut book = || (0..16).map(|_| cursor.uint(2).map(f64::from)).collect();
         let (low, high): (Result<Vec<f64>, String>, Result<Vec<f64>, String>) = (book(), book());
-        let mut bytes =
-            |count: usize| (0..count).map(|_| cursor.uint(1).map(|b| b as u8)).collect();
-        let codes: Result<Vec<u8>, String> = bytes((x + 1) * (y + 1) * (z + 1));
-        let errors: Result<Vec<u8>, String> = bytes(x * y * z);
-        let (codes, errors) = (codes?, errors?);
-        cursor.end()?;
         let cells = [x, y, z];
+        let (mut codes, mut errors, mut tree) = (Vec::new(), Vec::new(), None);
+        if is_tree {
+            let entries = cursor.0.chunks(5).map(|entry| {
+                <[u8; 5]>::try_from(entry).map_err(|_| "a part of an entry".to_owned())
+            });
+            let entries = entries.collect::<Result<Vec<_>, _>>()?;
+            let leaves = leaves(&entries, cells)?;
+            tree = Some((entries, leaves));
+        } else {
+            let mut bytes =
+                |count: usize| (0..count).map(|_| cursor.uint(1).map(|b| b as u8)).collect();
+            let of_corners: Result<Vec<u8>, String> = bytes((x + 1) * (y + 1) * (z + 1));
+            let of_cells: Result<Vec<u8>, String> = bytes(x * y * z);
+            (codes, errors) = (of_corners?, of_cells?);
+            cursor.end()?;
+        }
         Ok(Self {
             origin,
             per_unit,
@@ -59,6 +131,7 @@ impl Field {
             high: high?,
             codes,
             errors,
+            tree,
         })
     }
 
@@ -70,19 +143,60 @@ impl Field {
         self.kind == 2
     }
 
-    /// A point of the mesh, in units from corner 0 of the lattice.
+    /// A point of the mesh, in units from the field's corner 0.
     pub(super) fn place(&self, p: [f32; 3]) -> DVec3 {
         (DVec3::from(p.map(f64::from)) - self.origin) * self.per_unit - 0.5
     }
 
-    /// The greatest corner of the lattice.
+    /// The greatest corner of the field.
     pub(super) fn end(&self) -> DVec3 {
-        DVec3::from(self.cells.map(|n| n as f64)) * CELL
+        let side = if self.tree.is_some() { ROOT } else { CELL };
+        DVec3::from(self.cells.map(|n| n as f64)) * side
     }
 
-    /// The least corner of a cell, its function, and its errors below and above: of the one above,
-    /// the part that a query's shifts may lose is taken off.
-    pub(super) fn cell(&self, number: usize) -> (DVec3, Trilinear, [f64; 2]) {
+    /// Cells, or leaves.
+    pub(super) fn count(&self) -> usize {
+        let of_lattice = self.cells.into_iter().product();
+        self.tree.as_ref().map_or(of_lattice, |(_, leaves)| leaves.len())
+    }
+
+    /// What is said of a cell or leaf.
+    pub(super) fn claim(&self, number: usize) -> Claim {
+        match &self.tree {
+            None => self.cell(number),
+            Some((entries, leaves)) => {
+                let leaf = &leaves[number];
+                self.leaf(leaf, entries[leaf.entry])
+            }
+        }
+    }
+
+    fn leaf(&self, leaf: &Leaf, entry: [u8; 5]) -> Claim {
+        let [a, b, c, d, e] = entry.map(u64::from);
+        let bits = a | b << 8 | c << 16 | d << 24 | e << 32;
+        let six = |at: u32| {
+            let bits = (bits >> at & 63) as f64;
+            if bits < 32.0 { bits } else { bits - 64.0 }
+        };
+        let code = (bits >> 29 & 3 | e << 2) as f64;
+        let width = (d & 31) as usize;
+        let width = if width < 16 { self.low[width] } else { self.high[width - 16] };
+        let function = Bent {
+            middle: 0.5 * leaf.sides,
+            constant: self.base + PART * code * self.step,
+            gradient: DVec3::new(six(0), six(6), six(12)),
+            curvature: six(18),
+        };
+        let [below, above] = function.losses();
+        Claim {
+            corner: leaf.corner,
+            sides: leaf.sides,
+            function: Function::OfTree(function),
+            errors: [-above, width - below],
+        }
+    }
+
+    fn cell(&self, number: usize) -> Claim {
         let [x, y, _] = self.cells;
         let at = [number % x, number / x % y, number / (x * y)];
         let values = std::array::from_fn(|k| {
@@ -92,46 +206,11 @@ impl Field {
         let errors = self.errors[number] as usize;
         let lost = 1.0 + 3.0 * self.step / 2048.0;
         let corner = DVec3::from(at.map(|n| n as f64)) * CELL;
-        (corner, Trilinear::of(values), [self.low[errors % 16], self.high[errors / 16] - lost])
-    }
-}
-
-/// A polynomial of degree 1 in each coordinate, which count from a cell's least corner in units.
-pub(super) struct Trilinear {
-    constant: f64,
-    of: DVec3,
-    /// Of yz, xz, xy.
-    of_two: DVec3,
-    of_three: f64,
-}
-
-impl Trilinear {
-    /// From the values at the corners, x fastest.
-    fn of([a, b, c, d, e, f, g, h]: [f64; 8]) -> Self {
-        let square = CELL * CELL;
-        Self {
-            constant: a,
-            of: DVec3::new(b - a, c - a, e - a) / CELL,
-            of_two: DVec3::new(g - e - c + a, f - e - b + a, d - c - b + a) / square,
-            of_three: (h - g - f + e - d + c + b - a) / (square * CELL),
+        Claim {
+            corner,
+            sides: DVec3::splat(CELL),
+            function: Function::OfLattice(Trilinear::of(values)),
+            errors: [self.low[errors % 16], self.high[errors / 16] - lost],
         }
-    }
-
-    /// Value and gradient at a place, and how far the function is from these within half sides of a
-    /// box, at most.
-    pub(super) fn about(&self, p: DVec3, half: DVec3) -> (f64, DVec3, f64) {
-        let DVec3 { x, y, z } = p;
-        let two = self.of_two;
-        let products = DVec3::new(y * z, x * z, x * y);
-        let value =
-            self.constant + self.of.dot(p) + two.dot(products) + self.of_three * (x * y * z);
-        let gradient = self.of
-            + DVec3::new(two.z * y + two.y * z, two.z * x + two.x * z, two.y * x + two.x * y)
-            + self.of_three * products;
-        // Second derivatives at the place, and the third.
-        let bent = (two + self.of_three * p).abs();
-        let halves = DVec3::new(half.y * half.z, half.x * half.z, half.x * half.y);
-        let rest = bent.dot(halves) + self.of_three.abs() * (half.x * half.y * half.z);
-        (value, gradient, rest)
     }
 }

@@ -1,15 +1,16 @@
 //! Opening the distance field of a blob, and the check.
 
-use super::layout::{BOOK, CELL_UNITS, MOST_BASE, MOST_STEP, SDF_BYTES, field};
-use super::view::{Sdf, SdfKind};
+use super::layout::{BOOK, MOST_BASE, MOST_STEP, SDF_BYTES, field, tree};
+use super::shape::steps;
+use super::view::{Sdf, SdfKind, SdfLayout};
 use crate::format::Contradiction;
 use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError, SectionTable, ok, some};
 
 impl<'a> Sdf<'a> {
-    /// Opens the distance field of a blob where it lies, and checks it: CRC, header, lengths. Any
-    /// bytes are safe to open. It reads no other sections, so that the code that checks them is
-    /// not linked.
+    /// Opens the distance field of a blob where it lies, and checks it: CRC, header, lengths, and of
+    /// a tree that all entries are reached, and in how many steps. Any bytes are safe to open. It
+    /// reads no other sections, so that the code that checks them is not linked.
     ///
     /// Cost: the CRC, linear in the bytes; no allocation; once per start. Alignment of `bytes` does
     /// not matter.
@@ -20,7 +21,13 @@ impl<'a> Sdf<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Sdf<'a>, OpenError> {
         let table = SectionTable::open(bytes)?;
         table.check_crcs(SectionKind::is_sdf)?;
-        Sdf::locate(&table)
+        let field = Sdf::locate(&table)?;
+        if field.layout == SdfLayout::Tree
+            && steps(field.entries, field.cells().into_iter().product()) != Some(field.steps)
+        {
+            return Err(OpenError::Counts { what: Contradiction::FieldTree });
+        }
+        Ok(field)
     }
 
     /// Opens the field of an image that was verified before, and checks header and lengths only. It
@@ -44,17 +51,18 @@ impl<'a> Sdf<'a> {
     }
 
     /// Of codes and errors only the number is checked: every byte is a valid code, or two numbers in
-    /// the books.
+    /// the books. A question of a tree ends and does not panic whatever its entries are.
     const fn locate(table: &SectionTable<'a>) -> Result<Sdf<'a>, OpenError> {
         let data = table.bytes(SectionKind::Sdf);
         let malformed = table.malformed(SectionKind::Sdf);
         let (head, rest) = ok!(data.split_at_checked(SDF_BYTES), malformed);
         let header = Bytes(head);
-        let (low, high) =
-            (ok!(book(header, field::LOW), malformed), ok!(book(header, field::HIGH), malformed));
-        let [x, y, z] = ok!(header.array::<3>(field::CELLS), malformed);
-        let [kind, reserved] = ok!(header.array::<2>(field::KIND), malformed);
-        if reserved != 0 || ok!(header.u8(field::RESERVED_2), malformed) != 0 {
+        let books = ok!(books(header), malformed);
+        let [x, y, z, steps] = ok!(header.array::<4>(field::CELLS), malformed);
+        let [kind, layout] = ok!(header.array::<2>(field::KIND), malformed);
+        let Some(layout) = SdfLayout::from_code(layout) else { return Err(OpenError::Reserved) };
+        let is_tree = matches!(layout, SdfLayout::Tree);
+        if !is_tree && steps != 0 {
             return Err(OpenError::Reserved);
         }
         let kind =
@@ -62,9 +70,17 @@ impl<'a> Sdf<'a> {
         if x == 0 || y == 0 || z == 0 {
             return Err(OpenError::Counts { what: Contradiction::FieldCells });
         }
+        let most_roots = tree::MOST_ROOTS;
+        if is_tree && (x > most_roots || y > most_roots || z > most_roots) {
+            return Err(OpenError::Counts { what: Contradiction::FieldCells });
+        }
+        if is_tree && (steps == 0 || steps > tree::MOST_STEPS) {
+            return Err(OpenError::Counts { what: Contradiction::FieldTree });
+        }
         let step = ok!(header.u16(field::STEP), malformed);
+        let most_step = if is_tree { tree::MOST_STEP } else { MOST_STEP };
         let base = header.word(field::BASE).cast_signed();
-        if step == 0 || step > MOST_STEP || base.unsigned_abs() > MOST_BASE.unsigned_abs() {
+        if step == 0 || step > most_step || base.unsigned_abs() > MOST_BASE.unsigned_abs() {
             return Err(OpenError::Counts { what: Contradiction::FieldStep });
         }
         let origin @ [a, b, c] = header.corner(field::ORIGIN);
@@ -80,39 +96,52 @@ impl<'a> Sdf<'a> {
             && b.is_finite()
             && c.is_finite();
         // No bound of a query may overflow in input units.
-        let largest = base.unsigned_abs() + 256 * step as u32 + greatest(low) + greatest(high) + 2;
+        let most = if is_tree { tree::MOST_VALUE } else { 256 * step as u32 };
+        let largest = base.unsigned_abs() + most + 2 * greatest(books) + 2;
         let is_sound = is_sound && (largest as f32 * unit * (1.0 + 8.0 * f32::EPSILON)).is_finite();
         if !is_sound {
             return Err(OpenError::Counts { what: Contradiction::FieldUnit });
         }
         let (x, y, z) = (x as usize, y as usize, z as usize);
         // At most 2^24 each.
-        let (row, layer) = (x + 1, (x + 1) * (y + 1));
-        let (codes, errors) = ok!(rest.split_at_checked(layer * (z + 1)), malformed);
-        if errors.len() != x * y * z {
+        let corners = if is_tree { 0 } else { (x + 1) * (y + 1) * (z + 1) };
+        let (codes, cells) = ok!(rest.split_at_checked(corners), malformed);
+        let (entries, over) = cells.as_chunks::<{ tree::ENTRY_BYTES }>();
+        let (entries, errors) = if is_tree { (entries, over) } else { (&[] as &[_], cells) };
+        let is_whole = match is_tree {
+            true => over.is_empty() && entries.len() <= tree::MOST_ENTRIES,
+            false => errors.len() == x * y * z,
+        };
+        if !is_whole {
             return Err(malformed);
         }
+        let (row, rows) = if is_tree { (x, y) } else { (x + 1, y + 1) };
+        let bits = layout.cell_bits();
+        let units = [(x as u32) << bits, (y as u32) << bits, (z as u32) << bits];
         Ok(Sdf {
             codes,
             errors,
-            low,
-            high,
+            entries,
+            books,
             origin,
             per_unit,
             unit,
             base,
             step: step as i32,
             least: if matches!(kind, SdfKind::Signed) { i32::MIN } else { 0 },
-            units: [units(x), units(y), units(z)],
+            lattice: if is_tree { [0; 3] } else { units },
+            units,
             row: row as u32,
-            layer: layer as u32,
+            layer: (row * rows) as u32,
             cell_layer: (x * y) as u32,
             kind,
+            layout,
+            steps,
         })
     }
 }
 
-/// The greatest error of a book.
+/// The greatest error of both books.
 const fn greatest(mut book: &[[u8; 2]]) -> u32 {
     let mut most = 0;
     while let Some((error, rest)) = book.split_first() {
@@ -125,12 +154,7 @@ const fn greatest(mut book: &[[u8; 2]]) -> u32 {
     most
 }
 
-/// Units along so many cells.
-const fn units(cells: usize) -> u32 {
-    cells as u32 * CELL_UNITS.unsigned_abs()
-}
-
-/// The errors of a book.
-const fn book(header: Bytes<'_>, at: usize) -> Option<&[[u8; 2]; BOOK]> {
-    some!(header.slice(at, 2 * BOOK)).as_chunks().0.first_chunk()
+/// The errors of both books.
+const fn books(header: Bytes<'_>) -> Option<&[[u8; 2]; 2 * BOOK]> {
+    some!(header.slice(field::BOOKS, 4 * BOOK)).as_chunks().0.first_chunk()
 }

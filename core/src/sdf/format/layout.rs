@@ -23,6 +23,71 @@ pub const fn value_loss(step: u16) -> u32 {
     1 + (3 * step as u32).div_ceil(2048)
 }
 
+/// The numbers of a tree: entries of five bytes.
+///
+/// A node: the number of its first child in bytes 0 and 1, the axes that it halves in byte 3 (bits 0
+/// to 2: x, y, z), 0 in bytes 2 and 4. Its children stand one after the other; those on the upper side
+/// of an axis after those on the lower, x fastest among the axes that are halved.
+///
+/// A leaf: 40 bits, from the lowest: three entries g of the gradient, the curvature k, six bits each
+/// with a sign; the width's number in the book, five bits; two bits of the code, 1, the other eight
+/// bits of the code.
+pub mod tree {
+    /// Bytes of an entry.
+    pub const ENTRY_BYTES: usize = 5;
+    /// Bits of a place within a root cell, along each axis.
+    pub const ROOT_BITS: u32 = 16;
+    /// Most root cells along an axis: fewer than 2^19 units.
+    pub const MOST_ROOTS: u8 = 7;
+    /// Most halvings along an axis.
+    pub const MOST_LEVEL: u32 = 7;
+    /// Most entries that a question reads: a node halves at least one of three axes.
+    pub const MOST_STEPS: u8 = 3 * MOST_LEVEL as u8 + 1;
+    /// Most entries: a child's number has 16 bits.
+    pub const MOST_ENTRIES: usize = 1 << 16;
+    /// Bit of a leaf in byte 3.
+    pub const IS_LEAF: u8 = 1 << 7;
+    /// Bits of the axes in byte 3 of a node.
+    pub const AXES: u8 = 7;
+    /// Widths in the book.
+    pub const WIDTHS: usize = 32;
+    /// Largest step from one code to the next, in [`PART`] of a unit.
+    pub const MOST_STEP: u16 = 1 << 14;
+    /// Greatest code.
+    pub const MOST_CODE: u32 = 1023;
+    /// Greatest entry of a gradient: 1 but for 2^-15.
+    pub const ONE: i32 = 31;
+    /// What 1 of a code's step and of a gradient is, times [`PART_OF`]: about a 31st.
+    pub const PART: i32 = 1057;
+    /// See [`PART`].
+    pub const PART_OF: i32 = 1 << 15;
+    /// Ways of more than 11 bits are cut for the squares: by this less the level.
+    pub const SQUARE_BITS: u32 = 4;
+    /// What the sum is shifted by before it is multiplied by [`PART`], so that the product fits.
+    pub const VALUE_SHIFT: u32 = 4;
+    /// Largest distance of a tree from its base, units. By 1023 codes of the largest step, a gradient
+    /// of 32 in three half cells, and a curvature of 32 over 2¹⁶: less than 2^20.
+    pub const MOST_VALUE: u32 = 1 << 20;
+
+    /// How much a query's value may be below and above the leaf's function, in 2^-10 of a unit: of a
+    /// leaf with this curvature, this least level, and the other two levels so much greater.
+    ///
+    /// A square of n whole steps of 2^cut stands for one of less than (n + 1)², n below 2^11, or along
+    /// the gradient below 2^13. The last shifts lose less than 1.6 units.
+    pub fn loss(curvature: i32, level: u32) -> [u32; 2] {
+        let cut = SQUARE_BITS.saturating_sub(level);
+        // Of the ways, of which one is 2^15 over the level at most, in steps; and along the gradient.
+        let most = 1u32 << (15 - level - cut);
+        let ways = if cut == 0 { 0 } else { 3 * (2 * most + 1) };
+        let along = 2 * 3 * most + 1;
+        let bend = curvature.unsigned_abs();
+        let part = |squares: u32| (bend * squares).div_ceil(1 << (16 - level - 2 * cut - 5));
+        // 32 times 33 is above 1024 · 1057 / 2^15 · 32.
+        let in_units = |squares: u32| part(squares) * 34 / 32 + 1;
+        [in_units(ways + along) + 36 + 1664, in_units(ways + along)]
+    }
+}
+
 /// Offsets in the header.
 pub mod field {
     /// Three f32, input units: the origin, half a unit below corner 0 of the lattice along each axis.
@@ -38,14 +103,14 @@ pub mod field {
     pub const STEP: usize = 24;
     /// u8: an [`SdfKind`](super::super::SdfKind).
     pub const KIND: usize = 26;
-    /// u8: 0.
-    pub const RESERVED: usize = 27;
-    /// Three u8.
+    /// u8: an [`SdfLayout`](super::super::SdfLayout).
+    pub const LAYOUT: usize = 27;
+    /// Three u8: cells of a lattice, or root cells of a tree.
     pub const CELLS: usize = 28;
-    /// u8: 0.
-    pub const RESERVED_2: usize = 31;
-    /// Sixteen u16: errors below, units.
-    pub const LOW: usize = 32;
-    /// Sixteen u16: errors above, units.
+    /// u8: entries that a question of a tree reads at most; 0 of a lattice.
+    pub const STEPS: usize = 31;
+    /// Two books of sixteen u16: errors of a lattice below and above, or 32 widths of a tree, units.
+    pub const BOOKS: usize = 32;
+    /// The second book.
     pub const HIGH: usize = 64;
 }

@@ -1,10 +1,11 @@
 //! Checked view of the distance field.
 //!
-//! If [`Sdf::open`] returned `Ok`, then the lattice has at least one cell, every corner has a code
-//! and every cell its errors, no sum of a query leaves an i32, and the unit is a normal f32.
+//! If [`Sdf::open`] returned `Ok`, then the field has at least one cell, no sum of a query leaves an
+//! i32, and the unit is a normal f32. In a lattice every corner has a code and every cell its errors.
+//! In a tree every place leads to a leaf in at most [`Sdf::steps`] entries.
 //! Accessors return `Option` all the same. No path can panic.
 
-use super::layout::{BOOK, CELL_UNITS, SDF_BYTES, field};
+use super::layout::{BOOK, FRACTION_BITS, SDF_BYTES, field, tree};
 use crate::num::each;
 
 /// What a distance field says of a point.
@@ -44,6 +45,46 @@ impl SdfKind {
     }
 }
 
+/// How a distance field lies in its bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum SdfLayout {
+    /// Corners with codes, and an error byte a cell.
+    Lattice,
+    /// Cells of any dyadic size and shape, each with a function of its own.
+    Tree,
+}
+
+impl SdfLayout {
+    /// All layouts, in the order of their codes.
+    pub const ALL: [SdfLayout; 2] = [SdfLayout::Lattice, SdfLayout::Tree];
+
+    pub(super) const fn from_code(code: u8) -> Option<SdfLayout> {
+        match code {
+            0 => Some(SdfLayout::Lattice),
+            1 => Some(SdfLayout::Tree),
+            _ => None,
+        }
+    }
+
+    /// The value of `meshsweep build --sdf-layout` that builds it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            SdfLayout::Lattice => "lattice",
+            SdfLayout::Tree => "tree",
+        }
+    }
+
+    /// Units along each axis of one of [`Sdf::cells`], as a power of 2.
+    pub const fn cell_bits(self) -> u32 {
+        match self {
+            SdfLayout::Lattice => FRACTION_BITS,
+            SdfLayout::Tree => tree::ROOT_BITS,
+        }
+    }
+}
+
 /// The header of the field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SdfHeader {
@@ -55,15 +96,21 @@ pub struct SdfHeader {
     pub unit: f32,
     /// The distance that code 0 stands for, units.
     pub base: i32,
-    /// Units from one code to the next.
+    /// From one code to the next: units of a lattice, about 31sts of a unit of a tree.
     pub step: u16,
     /// What the distances mean.
     pub kind: SdfKind,
-    /// Cells along each axis.
+    /// How the field lies in its bytes.
+    pub layout: SdfLayout,
+    /// Cells along each axis: root cells of a tree.
     pub cells: [u8; 3],
-    /// Book: how far the distance may be below the trilinear function, units.
+    /// Entries that a question of a tree reads at most; 0 of a lattice.
+    pub steps: u8,
+    /// Book of a lattice: how far the distance may be below the trilinear function, units. Of a tree
+    /// the first sixteen widths.
     pub low: [u16; BOOK],
-    /// Book: how far the distance may be above it, and the loss of a query's shifts, units.
+    /// Book of a lattice: how far the distance may be above it, and the loss of a query's shifts,
+    /// units. Of a tree the last sixteen widths.
     pub high: [u16; BOOK],
 }
 
@@ -83,9 +130,10 @@ impl SdfHeader {
         put(field::UNIT, &self.unit.to_le_bytes());
         put(field::BASE, &self.base.to_le_bytes());
         put(field::STEP, &self.step.to_le_bytes());
-        put(field::KIND, &[self.kind as u8]);
+        put(field::KIND, &[self.kind as u8, self.layout as u8]);
         put(field::CELLS, &self.cells);
-        for (book, at) in [(&self.low, field::LOW), (&self.high, field::HIGH)] {
+        put(field::STEPS, &[self.steps]);
+        for (book, at) in [(&self.low, field::BOOKS), (&self.high, field::HIGH)] {
             for (index, error) in book.iter().enumerate() {
                 put(at + 2 * index, &error.to_le_bytes());
             }
@@ -93,7 +141,7 @@ impl SdfHeader {
         out
     }
 
-    /// Corners of the lattice, and cells.
+    /// Corners of a lattice, and cells.
     pub fn counts(&self) -> [usize; 2] {
         let cells = each(self.cells, usize::from);
         [cells.iter().map(|n| n + 1).product(), cells.iter().product()]
@@ -104,7 +152,8 @@ impl SdfHeader {
 ///
 /// The field covers the mesh's box and a margin. It is a lattice of cubic cells with a code of eight
 /// bits at each corner, and a byte a cell that says how far the mesh's distance may be from the
-/// trilinear function of the codes, below and above. The builder proves these errors.
+/// trilinear function of the codes, below and above. Or it is a tree: each of its cells has a plane
+/// with a curvature below the distance, and a width. The builder proves these errors.
 ///
 /// ```
 /// use meshsweep_core::{Sdf, Side};
@@ -116,10 +165,13 @@ impl SdfHeader {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Sdf<'a> {
+    /// Of a lattice; empty of a tree.
     pub(in crate::sdf) codes: &'a [u8],
+    /// Of a lattice; empty of a tree.
     pub(in crate::sdf) errors: &'a [u8],
-    pub(in crate::sdf) low: &'a [[u8; 2]; BOOK],
-    pub(in crate::sdf) high: &'a [[u8; 2]; BOOK],
+    /// Of a tree; empty of a lattice.
+    pub(in crate::sdf) entries: &'a [[u8; tree::ENTRY_BYTES]],
+    pub(in crate::sdf) books: &'a [[u8; 2]; 2 * BOOK],
     pub(in crate::sdf) origin: [f32; 3],
     pub(in crate::sdf) per_unit: f32,
     pub(in crate::sdf) unit: f32,
@@ -127,15 +179,20 @@ pub struct Sdf<'a> {
     pub(in crate::sdf) step: i32,
     /// Distances are cut to at least this, units.
     pub(in crate::sdf) least: i32,
+    /// Units along each axis of a lattice; 0 of a tree. So a question of a lattice is sure of its
+    /// layout by the comparison that it makes anyway.
+    pub(in crate::sdf) lattice: [u32; 3],
     /// Units along each axis.
     pub(in crate::sdf) units: [u32; 3],
-    /// Corners of a row.
+    /// Corners of a row, or root cells of a tree's.
     pub(in crate::sdf) row: u32,
-    /// Corners of a layer.
+    /// Corners of a layer, or root cells of a tree's.
     pub(in crate::sdf) layer: u32,
     /// Cells of a layer.
     pub(in crate::sdf) cell_layer: u32,
     pub(in crate::sdf) kind: SdfKind,
+    pub(in crate::sdf) layout: SdfLayout,
+    pub(in crate::sdf) steps: u8,
 }
 
 impl Sdf<'_> {
@@ -144,12 +201,28 @@ impl Sdf<'_> {
         self.kind
     }
 
-    /// Cells along each axis.
-    pub fn cells(&self) -> [u32; 3] {
-        each(self.units, |units| units / CELL_UNITS.unsigned_abs())
+    /// How the field lies in its bytes.
+    pub const fn layout(&self) -> SdfLayout {
+        self.layout
     }
 
-    /// A unit in input units, rounded to nearest. A cell has 2048 units along each axis.
+    /// Entries that a question reads at most: cells of a tree one in the other, from the root cell to
+    /// the leaf. 1 of a lattice.
+    pub const fn steps(&self) -> u32 {
+        match self.layout {
+            SdfLayout::Lattice => 1,
+            SdfLayout::Tree => self.steps as u32,
+        }
+    }
+
+    /// Cells along each axis: of a tree its root cells.
+    pub fn cells(&self) -> [u32; 3] {
+        let bits = self.layout.cell_bits();
+        each(self.units, |units| units >> bits)
+    }
+
+    /// A unit in input units, rounded to nearest. A cell of a lattice has 2048 units along each axis,
+    /// a root cell of a tree 65,536.
     pub const fn unit(&self) -> f32 {
         self.unit
     }
@@ -171,7 +244,10 @@ impl Sdf<'_> {
     /// The header.
     #[doc(hidden)]
     pub fn header(&self) -> SdfHeader {
-        let book = |book: &[[u8; 2]; BOOK]| book.map(u16::from_le_bytes);
+        let (mut low, mut high) = ([0; BOOK], [0; BOOK]);
+        for (entry, &bytes) in low.iter_mut().chain(&mut high).zip(self.books) {
+            *entry = u16::from_le_bytes(bytes);
+        }
         SdfHeader {
             origin: self.origin,
             per_unit: self.per_unit,
@@ -179,9 +255,11 @@ impl Sdf<'_> {
             base: self.base,
             step: self.step as u16,
             kind: self.kind,
+            layout: self.layout,
             cells: each(self.cells(), |cells| cells as u8),
-            low: book(self.low),
-            high: book(self.high),
+            steps: self.steps,
+            low,
+            high,
         }
     }
 
@@ -195,5 +273,11 @@ impl Sdf<'_> {
     #[doc(hidden)]
     pub fn errors(&self) -> &[u8] {
         self.errors
+    }
+
+    /// Entries of a tree.
+    #[doc(hidden)]
+    pub fn entries(&self) -> &[[u8; tree::ENTRY_BYTES]] {
+        self.entries
     }
 }

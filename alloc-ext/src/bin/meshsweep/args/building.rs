@@ -9,7 +9,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, ValueEnum};
 use meshsweep::Builder;
 use meshsweep::builder::ranges::{BASE_FACES, MAX_VALENCE, TIGHT_FACES, TRIBOX_COUNT};
-use meshsweep::builder::{For, SdfKind};
+use meshsweep::builder::{For, SdfKind, SdfLayout};
 use meshsweep::collapse::{CollapseOptions, Priority};
 use meshsweep::lp::Order;
 use meshsweep::surface::VertexBits;
@@ -109,6 +109,16 @@ pub struct BuildArgs {
         value_parser = PossibleValuesParser::new(SdfKind::ALL.map(SdfKind::name)).map(sdf_kind)
     )]
     pub sdf_kind: Option<SdfKind>,
+    /// How the field lies in its bytes: lattice or tree
+    ///
+    /// By default both are built, and the one whose intervals are narrower is kept.
+    #[arg(
+        long,
+        value_name = "LAYOUT",
+        hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(SdfLayout::ALL.map(SdfLayout::name)).map(sdf_layout)
+    )]
+    pub sdf_layout: Option<SdfLayout>,
     /// Margin of the field about the mesh, in its unit
     ///
     /// By default a tenth of the box's diagonal. Farther out answers are wider.
@@ -170,6 +180,11 @@ fn sdf_kind(name: String) -> SdfKind {
     SdfKind::ALL.into_iter().find(|of| of.name() == name).unwrap_or(SdfKind::Signed)
 }
 
+/// A layout of a field by its name, which is one of all.
+fn sdf_layout(name: String) -> SdfLayout {
+    SdfLayout::ALL.into_iter().find(|of| of.name() == name).unwrap_or(SdfLayout::Lattice)
+}
+
 impl BuildArgs {
     /// What builds the blob.
     pub fn builder(&self) -> Builder<'_> {
@@ -190,6 +205,7 @@ impl BuildArgs {
             .effort(self.effort)
             .sdf_bytes(self.sdf)
             .sdf_kind(self.sdf_kind)
+            .sdf_layout(self.sdf_layout)
             .sdf_margin(self.sdf_margin)
             .closed(self.closed);
         let asked = |of: HullServes| self.tight_for.contains(&of);

@@ -1,20 +1,36 @@
-//! The distance field: kind, cells, errors.
+//! The distance field: kind, layout, cells, errors.
 
 use meshsweep::number::{AtMost, Short};
-use meshsweep_core::{Sdf, SdfKind};
+use meshsweep_core::internal::sdf::format::layout::tree;
+use meshsweep_core::{Sdf, SdfKind, SdfLayout};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// The largest error below and above, and the largest sum of both, in the mesh's unit.
+/// The largest error below and above, and the largest sum of both, in the mesh's unit. All error of a
+/// tree's leaf is above.
 fn largest(sdf: &Sdf<'_>) -> [f64; 3] {
     let header = sdf.header();
-    let of = |&errors: &u8| {
+    let of_cell = |&errors: &u8| {
         let low = f64::from(header.low[usize::from(errors & 15)]);
         let high = f64::from(header.high[usize::from(errors >> 4)]);
         [low, high, low + high]
     };
+    let of_entry = |&[_, _, _, kind, _]: &[u8; 5]| {
+        let number = usize::from(kind & 31);
+        let book = if number < 16 { &header.low } else { &header.high };
+        let is_leaf = kind & tree::IS_LEAF != 0;
+        let width = if is_leaf { f64::from(book[number % 16]) } else { 0.0 };
+        [0.0, width, width]
+    };
     let most = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|k| a[k].max(b[k]));
-    sdf.errors().iter().map(of).fold([0.0; 3], most).map(|units| units / f64::from(header.per_unit))
+    let cells = sdf.errors().iter().map(of_cell);
+    let of_all = cells.chain(sdf.entries().iter().map(of_entry));
+    of_all.fold([0.0; 3], most).map(|units| units / f64::from(header.per_unit))
+}
+
+/// Leaves of a tree.
+fn leaves(sdf: &Sdf<'_>) -> usize {
+    sdf.entries().iter().filter(|entry| entry[3] & tree::IS_LEAF != 0).count()
 }
 
 pub(super) fn write(out: &mut dyn Write, sdf: &Sdf<'_>) -> io::Result<()> {
@@ -28,7 +44,14 @@ pub(super) fn write(out: &mut dyn Write, sdf: &Sdf<'_>) -> io::Result<()> {
     let [below, above, both] = largest(sdf).map(AtMost);
     writeln!(out, "distance field")?;
     writeln!(out, "  {means}")?;
-    writeln!(out, "  {x} x {y} x {z} cells of 2048 units of {}", Short(sdf.unit()))?;
+    let unit = Short(sdf.unit());
+    if sdf.layout() == SdfLayout::Tree {
+        let (leaves, steps) = (leaves(sdf), sdf.steps());
+        writeln!(out, "  tree of {leaves} leaves; a question takes {steps} steps at most")?;
+        writeln!(out, "  {x} x {y} x {z} root cells of 65536 units of {unit}")?;
+    } else {
+        writeln!(out, "  {x} x {y} x {z} cells of 2048 units of {unit}")?;
+    }
     writeln!(out, "  from {low} to {high}")?;
     writeln!(out, "  largest error {below} below, {above} above; widest cell {both}")
 }
@@ -38,7 +61,9 @@ pub(super) fn as_json(sdf: &Sdf<'_>) -> Value {
     let [below, above, both] = largest(sdf);
     json!({
         "kind": sdf.kind().name(),
+        "layout": sdf.layout().name(),
         "cells": sdf.cells(),
+        "steps": sdf.steps(),
         "unit": sdf.unit(),
         "per_unit": header.per_unit,
         "bounds": sdf.bounds(),

@@ -1,0 +1,133 @@
+//! Samples of the whole domain, and those of a dyadic box.
+
+use super::partition::{Box3, LEVELS};
+use crate::error::BuildError;
+use crate::progress::Watch;
+use crate::sdf::domain::{Domain, ROOT};
+use crate::sdf::samples::{Sample, of_box};
+use crate::sdf::truth::{Side, Truth};
+use crate::sdf::widths::weight;
+use glam::DVec3;
+use meshsweep_core::SdfKind;
+
+/// Steps of the grid along a side of a root cell: two along that of the smallest box.
+const STEPS: usize = 2 << LEVELS;
+
+/// Steps along a side of what is sampled at once.
+const AT_ONCE: usize = 8;
+
+/// Most steps along a side of a box that is fitted.
+const MOST_STEPS: usize = 16;
+
+/// What samples in a box allow.
+#[derive(Debug, Default)]
+pub(super) struct Batch {
+    /// Steps along each side.
+    pub steps: [usize; 3],
+    /// The distance that a function is fitted to, units.
+    pub value: Vec<f32>,
+    /// The interval must go down to this.
+    pub least: Vec<f32>,
+    /// The interval must go up to this; −∞ where no upper end is asked for.
+    pub most: Vec<f32>,
+    /// How much each sample counts.
+    pub weight: Vec<f32>,
+}
+
+impl Batch {
+    fn clear(&mut self, steps: [usize; 3]) {
+        self.steps = steps;
+        for all in [&mut self.value, &mut self.least, &mut self.most, &mut self.weight] {
+            all.clear();
+        }
+    }
+
+    fn push(&mut self, sample: Sample, kind: SdfKind, near: f64) {
+        let [least, most] = sample.limits(kind);
+        self.value.push(match (sample.side, kind) {
+            (Side::Inside, SdfKind::Solid) => -sample.distance,
+            _ => 0.5 * (least + most),
+        });
+        self.least.push(least);
+        self.most.push(most);
+        self.weight.push(weight(sample, kind, near) as f32);
+    }
+
+    /// Of samples of a box, as many steps along each side.
+    pub fn fill(&mut self, samples: &[Sample], steps: usize, kind: SdfKind, near: f64) {
+        self.clear([steps; 3]);
+        for &sample in samples {
+            self.push(sample, kind, near);
+        }
+    }
+}
+
+/// Samples at the places of a grid over the whole domain.
+#[derive(Debug)]
+pub(super) struct Grid {
+    /// Places along each axis.
+    places: [usize; 3],
+    /// As of a box, x fastest.
+    all: Batch,
+}
+
+impl Grid {
+    /// # Errors
+    /// [`BuildError::Cancelled`].
+    pub fn of(
+        truth: &Truth<'_>,
+        domain: &Domain,
+        near: f64,
+        watch: Watch<'_>,
+    ) -> Result<Self, BuildError> {
+        let blocks = domain.cells.map(|cells| cells * STEPS / AT_ONCE);
+        let side = ROOT * AT_ONCE as f64 / STEPS as f64;
+        let found = watch.map(blocks.iter().product(), |number| {
+            let at = unranked(number, blocks).map(|at| at as f64);
+            of_box(truth, DVec3::from(at) * side, DVec3::splat(side), AT_ONCE)
+        })?;
+        let places = blocks.map(|blocks| blocks * AT_ONCE + 1);
+        let mut all = Batch::default();
+        all.clear(places.map(|places| places - 1));
+        for number in 0..places.iter().product() {
+            let at = unranked(number, places);
+            // The last place of a block is the first of the next, but for the last block.
+            let block = [0, 1, 2].map(|axis| (at[axis] / AT_ONCE).min(blocks[axis] - 1));
+            let within = [0, 1, 2].map(|axis| at[axis] - AT_ONCE * block[axis]);
+            let samples = &found[ranked(block, blocks)];
+            all.push(samples[ranked(within, [AT_ONCE + 1; 3])], truth.kind, near);
+        }
+        Ok(Self { places, all })
+    }
+
+    /// The samples of a box: all, or some at even steps.
+    pub fn fill(&self, of: &Box3, batch: &mut Batch) {
+        let (start, size) = (of.start(STEPS), of.size(STEPS));
+        let steps = size.map(|size| size.min(MOST_STEPS));
+        let stride = [0, 1, 2].map(|axis| size[axis] / steps[axis]);
+        batch.clear(steps);
+        let [x, y, _] = self.places;
+        for k in 0..=steps[2] {
+            for j in 0..=steps[1] {
+                let row =
+                    start[0] + x * (start[1] + j * stride[1] + y * (start[2] + k * stride[2]));
+                let copy = |to: &mut Vec<f32>, from: &[f32]| match stride[0] {
+                    1 => to.extend_from_slice(&from[row..=row + size[0]]),
+                    stride => to.extend(from[row..=row + size[0]].iter().step_by(stride)),
+                };
+                copy(&mut batch.value, &self.all.value);
+                copy(&mut batch.least, &self.all.least);
+                copy(&mut batch.most, &self.all.most);
+                copy(&mut batch.weight, &self.all.weight);
+            }
+        }
+    }
+}
+
+pub(super) fn unranked(number: usize, [x, y, _]: [usize; 3]) -> [usize; 3] {
+    [number % x, number / x % y, number / (x * y)]
+}
+
+fn ranked([i, j, k]: [usize; 3], [x, y, _]: [usize; 3]) -> usize {
+    i + x * (j + y * k)
+}

@@ -1,0 +1,26 @@
+//! A field's tree: which boxes are leaves, and what stands in each.
+//!
+//! ```text
+//! grid       samples of the whole domain
+//! leaf       a leaf's function and bytes
+//! fit        the function of a box, from samples
+//! partition  the best boxes for a number of bytes
+//! search     their costs, and the entries of the best
+//! codes      the functions' values, as they are stored
+//! build      the stages, and the section's bytes
+//! ```
+//!
+//! *Partition.* Every dyadic box of a root cell is fitted once, by few samples. A box costs the width of
+//! its intervals, weighted by where questions are, and the price of five bytes. Or it is halved along
+//! any of the axes, and costs that price and what its parts cost. So the best partition at a price
+//! follows from the smallest boxes upwards, and the price is found that fills the bytes.
+
+mod build;
+mod codes;
+mod fit;
+mod grid;
+mod leaf;
+mod partition;
+mod search;
+
+pub(super) use build::build;
