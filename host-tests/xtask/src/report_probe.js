@@ -57,6 +57,9 @@
   await drive("scene", "cut", (control) => (control.value = "300"));
   await drive("scene", "axis", other);
   await drive("scene", "colour", other);
+  for (const key of ["middles", "widths"]) {
+    await drive("scene", "colour", (control) => (control.value = `field ${key}`));
+  }
   for (const { id } of document.querySelectorAll("#bodies input")) {
     await drive("scene", id, (control) => (control.checked = !control.checked));
   }

@@ -3,7 +3,8 @@
 //! ```text
 //! rows ─────────────────── table::as_json ─┐
 //! blobs ─┬─ intervals on a path ─ path ────┼─ JSON ─ page.html ─ page.js ─ plotly
-//!        └─ bodies, worst queries ─ scene ─┘
+//!        ├─ bodies, worst queries ─ scene ─┤
+//!        └─ slices of the field ─ slices ──┘
 //! ```
 //! The library is the build of plotly.js for three dimensions, unchanged: `plotly-gl3d.min.js` of
 //! `plotly.js-gl3d-dist-min` 4.1.1 from the npm registry, MIT, by `gzip -9n`. The browser unpacks
@@ -12,6 +13,7 @@
 mod drawn;
 mod path;
 mod scene;
+mod slices;
 
 use super::measured::Measured;
 use super::table;
@@ -48,6 +50,7 @@ pub fn write(
         "trade": table::as_json(loaded, measured),
         "path": path::as_json(loaded, measured, &asked).map_err(failed)?,
         "scene": scene::as_json(loaded, measured, &asked).map_err(failed)?,
+        "field": slices::as_json(measured).map_err(failed)?,
     });
     Output::file(place)?.finish(|out| fill(out, &data))
 }

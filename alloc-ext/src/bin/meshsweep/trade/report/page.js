@@ -164,6 +164,31 @@ function clipped({ positions, triangles }, values, across, most) {
   return { x, y, z, i, j, k, kept, cut };
 }
 
+/** The slice of the distance field that is nearest to a plane, coloured by one of its numbers. */
+function sliceOf(field, key, across, most) {
+  const { low, high, slices, side } = field;
+  const at = (axis, step, of) => low[axis] + ((step + 0.5) / of) * (high[axis] - low[axis]);
+  const part = (most - low[across]) / (high[across] - low[across]);
+  const slice = Math.min(slices - 1, Math.max(0, Math.floor(part * slices)));
+  const steps = Array.from({ length: side }, (_, step) => step);
+  const grid = (of) => steps.map((row) => steps.map((column) => of(row, column)));
+  const first = (across * slices + slice) * side * side;
+  const axes = [0, 1, 2].map((axis) => grid((row, column) => {
+    if (axis === across) return at(axis, slice, slices);
+    return at(axis, axis === (across + 1) % 3 ? row : column, side);
+  }));
+  const surfacecolor = grid((row, column) => field[key][first + row * side + column]);
+  const all = field[key].reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+  const signed = key === "middles";
+  return { type: "surface", uid: `slice-${key}`, x: axes[0], y: axes[1], z: axes[2], surfacecolor,
+    cmin: signed ? -all : 0, cmax: all, colorscale: signed ? "RdBu" : HEAT, reversescale: signed,
+    colorbar: { title: { text: `length${unit}`, side: "right" }, len: 0.7, thickness: 16,
+      exponentformat: "power" },
+    name: field.name, hoverinfo: "name", contours: { x: { highlight: false },
+      y: { highlight: false }, z: { highlight: false } },
+    lighting: { ambient: 1, diffuse: 0, specular: 0 } };
+}
+
 const isOn = (key) => byId(`is-${key}`).checked;
 
 function drawScene() {
@@ -192,6 +217,10 @@ function drawScene() {
     traces.push({ type: "scatter3d", mode: "lines", x: cut[0], y: cut[1], z: cut[2],
       line: { color: body.key === "mesh" ? "#000" : BODY_COLOURS[body.key], width: 5 },
       hoverinfo: "skip" });
+  }
+  if (painted === "field") {
+    const plane = part === 1 ? (low[across] + high[across]) / 2 : most;
+    traces.push(sliceOf(data.field, index, across, plane));
   }
   const line = (points, extra) => traces.push({ type: "scatter3d", x: points.map((p) => p[0]),
     y: points.map((p) => p[1]), z: points.map((p) => p[2]), ...extra });
@@ -224,6 +253,13 @@ function prepareScene() {
       colour.most = colour.values.reduce((most, x) => Math.max(most, x), 0);
       byId("colour").add(new Option(colour.name, `${body.key} ${i}`));
     });
+  }
+  if (data.field) {
+    for (const [key, by] of [["middles", "distance"], ["widths", "interval's width"]]) {
+      data.field[key] = numbers(data.field[key]);
+      byId("colour").add(new Option(`a slice of the ${data.field.name}, by its ${by}`,
+        `field ${key}`));
+    }
   }
   byId("colour").add(new Option("none", "none 0"));
   const { positions } = bodies[0];
