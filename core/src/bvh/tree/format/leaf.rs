@@ -256,6 +256,22 @@ impl<'a> FanLeaf<'a> {
         Some((ring, centre(0), centre(centres - 1)))
     }
 
+    /// The same of a leaf with f32 vertices, whose coordinates are moved down to the grid.
+    #[inline(never)]
+    pub(crate) fn f32_above(&self, axis: usize, floor: i32) -> Option<(u32, u32, u32)> {
+        let (centres, step) = (self.shape.centres(), 2 * (self.shape.triangles() + 1));
+        let origin = Real(float(*self.origin.get(axis)?));
+        let least = Real(float(floor.wrapping_add(1)));
+        // Every number is twice as long as on the grid.
+        let is_above = |at: usize| u32::from(Real(f32_at(self.bytes, 2 * at)) - origin >= least);
+        let mut ring = 0;
+        for vertex in (0..=self.shape.triangles()).rev() {
+            ring = ring << 1 | is_above(6 * centres + step * axis + 2 * vertex);
+        }
+        let centre = |which: usize| is_above(6 * which + 2 * axis);
+        Some((ring, centre(0), centre(centres - 1)))
+    }
+
     /// The stored integers of a leaf on the grid, as many as the largest leaf has.
     #[cfg(not(meshsweep_wide))]
     #[inline(always)]
