@@ -6,8 +6,8 @@
 //! no vertex has such a coordinate, and no case is special. Vertices in f32 move to the grid.
 //!
 //! The ray runs along x. Seen along it, the point is within a face if an odd number of the face's
-//! edges cross the ray from the point along z. An edge is looked at from its lower end, so that both
-//! of its faces say the same: `core/docs/rounding.md` §12.
+//! edges cross the ray from the point along z. An edge is looked at from its lower end. So both of
+//! its faces say the same: `core/docs/rounding.md` §12.
 
 use crate::bvh::tree::format::layout::boxes;
 use crate::bvh::tree::format::{Bvh, FanLeaf, LeafShape, lanes_of};

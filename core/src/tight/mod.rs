@@ -19,10 +19,11 @@
 //! the hull as rounding of the ray's end counts as inside.
 //!
 //! *Where instructions go* (*historical*, Cortex-M4F, `opt-level = 3`, 20 faces of the bracket, by
-//! function). A closest point beyond the box takes 4,100: 2,800 in its 2.7 leaves, where 13 faces are
-//! looked at and 8.5 computed; 480 for the boxes; 140 for each plane that leaves out a leaf's faces;
-//! 150 to prepare; 400 for the answer. A signed distance took 10,800: 10 faces a second time, 4 as
-//! slivers, and a look at the corner that faces share. The ray takes a thousand in its place.
+//! function). A closest point beyond the box takes 4,100: 2,800 in its 2.7 leaves, where 13 faces
+//! are looked at and 8.5 computed; 480 for the boxes; 140 for each plane that leaves out a leaf's
+//! faces; 150 to prepare; 400 for the answer. A signed distance took 10,800: 10 faces a second
+//! time, 4 as slivers, and a look at the corner that faces share. The ray takes a thousand in its
+//! place.
 //!
 //! | means of the suite's places | 20 faces | 160 | 200 |
 //! | --- | --- | --- | --- |
@@ -40,9 +41,9 @@
 //!
 //! Also lost: the ray past every leaf, without boxes (160 faces, near: 11,395, and 9,843 with the
 //! leaf's corners told apart by sign bits); the plane of the final limit before faces of a leaf are
-//! looked at again (signed distance of 160 faces −1 %, of the bracket's tree +3.5 %). A hull without
-//! boxes for segments pays for the ray past every leaf: of 150 faces, 6 % more near the hull than a
-//! signed distance took, and 20 % less for `within`.
+//! looked at again (signed distance of 160 faces −1 %, of the bracket's tree +3.5 %). A hull
+//! without boxes for segments pays for the ray past every leaf: of 150 faces, 6 % more near the
+//! hull than a signed distance took, and 20 % less for `within`.
 
 mod closest_point;
 mod crossings;

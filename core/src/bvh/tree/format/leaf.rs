@@ -240,8 +240,8 @@ impl<'a> FanLeaf<'a> {
         })
     }
 
-    /// Bits of the ring vertices of a leaf on the grid whose stored coordinate is above `floor`, the
-    /// first vertex's lowest, and the same of both centres. Bits past the ring have no meaning.
+    /// Bits of the ring vertices of a leaf on the grid whose stored coordinate is above `floor`,
+    /// the first vertex's lowest, and the same of both centres. Bits past the ring have no meaning.
     #[inline(always)]
     pub(crate) fn above(&self, axis: usize, floor: i32) -> Option<(u32, u32, u32)> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
