@@ -458,9 +458,9 @@ pub const GAP_ALONG: f32 = 16.0;
 /// comparison on the safe side (§18).
 pub const GAP_SLACK: f32 = 1.0 + 16.0 * U32;
 
-/// A point that moves to the nearest odd multiples of 1/256 above or below it, and its place in f32,
-/// together move it by less than this, grid units. Proved: 0.017 (§12). Points that are nearer to a
-/// tight hull count as inside. A smaller value could tell a wrong side.
+/// A point that moves to the nearest odd multiples of 1/256 above or below it, and its place in
+/// f32, together move it by less than this, grid units. Proved: 0.017 (§12). Points that are nearer
+/// to a tight hull count as inside. A smaller value could tell a wrong side.
 pub const RAY_MOVED: f32 = 1.0 / 32.0;
 
 /// The same where vertices in f32 move down to the grid, by less than one unit along each axis.
@@ -468,8 +468,8 @@ pub const RAY_MOVED: f32 = 1.0 / 32.0;
 pub const RAY_MOVED_F32: f32 = 2.0;
 
 /// The squared distance from a tight hull's box, and the squared limit that it is compared with,
-/// carry less than nine roundings together. This factor keeps the comparison on the safe side (§12).
-/// A smaller one leaves a few more questions to the hull's tree.
+/// carry less than nine roundings together. This factor keeps the comparison on the safe side
+/// (§12). A smaller one leaves a few more questions to the hull's tree.
 pub const TIGHT_BOX: f32 = 1.0 - 16.0 * U32;
 
 /// Squared bound of a pair of boxes below which the bound counts as 0, 2^-100: the terms of a

@@ -12,15 +12,16 @@ impl TightHull<'_> {
     /// `distance.upper` is at most the hull's distance plus the slack of its closest face. Outside
     /// the hull `distance.lower` is the hull's distance, so that the interval is as wide as the
     /// slack there. Inside, and nearer to the hull than 1/32 of its grid's unit (2 units with f32
-    /// vertices), it is less by the hull's depth, and at least 0. [`point`](ClosestPoint::point) lies on the hull. There is no triangle.
+    /// vertices), it is less by the hull's depth, and at least 0. [`point`](ClosestPoint::point)
+    /// lies on the hull. There is no triangle.
     ///
     /// `scratch` as for [`Bvh::closest_point`](crate::Bvh::closest_point), for the hull's
     /// [`bvh`](TightHull::bvh). The budget's tolerances do not shorten the search. If the hull is
     /// as tight as the tolerance, it ends with [`Ended::Tolerance`], else with
     /// [`Ended::Resolution`]. [`Ended::Steps`] and [`Ended::Scratch`] as there.
     ///
-    /// Cost: that of the box tree's closest point. Inside the hull's box a ray through the hull comes
-    /// on top, of one leaf in ten or so.
+    /// Cost: that of the box tree's closest point. Inside the hull's box a ray through the hull
+    /// comes on top. It reads few leaves if the hull has boxes for segments, else all.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Scratch, TightHulls};

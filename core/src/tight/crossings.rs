@@ -6,8 +6,8 @@
 //! no vertex has such a coordinate, and no case is special. Vertices in f32 move to the grid.
 //!
 //! The ray runs along x. Seen along it, the point is within a face if an odd number of the face's
-//! edges cross the ray from the point along z. An edge is looked at from its lower end, so that both
-//! of its faces say the same: `core/docs/rounding.md` §12.
+//! edges cross the ray from the point along z. An edge is looked at from its lower end. So both of
+//! its faces say the same: `core/docs/rounding.md` §12.
 
 use crate::bvh::tree::format::layout::boxes;
 use crate::bvh::tree::format::{Bvh, FanLeaf, LeafShape, lanes_of};
@@ -53,9 +53,9 @@ pub(super) fn is_outside(tree: &Bvh<'_>, point: [f32; 3]) -> Option<bool> {
             let shape = links.shape(index);
             if met >> (index & 31) & 1 != 0 {
                 let lanes = if header.is_f32() {
-                    u32::MAX
+                    f32_maybe_crossed(tree, (at, shape), place)?
                 } else {
-                    maybe_crossed(&tree.leaf_at(at, shape)?, place)?
+                    maybe_crossed::<false>(&tree.leaf_at(at, shape)?, place)?
                 };
                 if lanes != 0 {
                     is_odd ^= crosses_oddly(tree, (at, shape), lanes, place)?;
@@ -115,14 +115,16 @@ fn children_met(tree: &Bvh<'_>, node: u32, place: [i32; 3]) -> Option<u32> {
 /// is less: 2^25 of these units go across a hull.
 const FINEST_STEP: i32 = -5;
 
-/// Bits of the triangles of a leaf on the grid whose boxes the ray meets.
+/// Bits of the triangles of a leaf whose boxes the ray meets.
 #[inline(always)]
-fn maybe_crossed(leaf: &FanLeaf<'_>, place: [i32; 3]) -> Option<u32> {
+fn maybe_crossed<const IS_F32: bool>(leaf: &FanLeaf<'_>, place: [i32; 3]) -> Option<u32> {
     let shape = leaf.shape();
     let first_fan = !(u32::MAX << (shape.turn() & 31));
     // Of each triangle whether its corners have greater coordinates: some, and not all.
     let along = |axis: usize| {
-        let (above, one, other) = leaf.above(axis, place[axis] >> FINE)?;
+        let floor = place[axis] >> FINE;
+        let above = if IS_F32 { leaf.f32_above(axis, floor) } else { leaf.above(axis, floor) };
+        let (above, one, other) = above?;
         let centre = one.wrapping_neg() & first_fan | other.wrapping_neg() & !first_fan;
         let some = above | above >> 1 | centre;
         Some((some, some & !(above & above >> 1 & centre)))
@@ -137,7 +139,19 @@ fn maybe_crossed(leaf: &FanLeaf<'_>, place: [i32; 3]) -> Option<u32> {
     Some(lanes)
 }
 
+/// [`maybe_crossed`] as a call, so that leaves on the grid keep all registers.
+#[cold]
+#[inline(never)]
+fn f32_maybe_crossed(
+    tree: &Bvh<'_>,
+    (at, shape): (u32, LeafShape),
+    place: [i32; 3],
+) -> Option<u32> {
+    maybe_crossed::<true>(&tree.leaf_at(at, shape)?, place)
+}
+
 /// Whether the ray crosses an odd number of the triangles of a leaf whose bits in `lanes` are ones.
+/// Vertices in f32 move down to the grid.
 #[inline(never)]
 fn crosses_oddly(
     tree: &Bvh<'_>,
@@ -146,39 +160,22 @@ fn crosses_oddly(
     place: [i32; 3],
 ) -> Option<bool> {
     let leaf = tree.leaf_at(at, shape)?;
-    let used = !(u32::MAX << (shape.triangles() & 31));
     let mut is_odd = false;
-    for lane in lanes_of(lanes & used) {
-        let corners = if leaf.is_f32() {
-            f32_corners(&leaf, lane, place)
+    for lane in lanes_of(lanes) {
+        let mut corners = [[0; 3]; 3];
+        if leaf.is_f32() {
+            for (corner, stored) in corners.iter_mut().zip(leaf.stored_corners(lane)) {
+                let stored = stored.to_array().into_iter().zip(leaf.origin);
+                for (x, (of, origin)) in corner.iter_mut().zip(stored) {
+                    *x = floored((Real(of) - Real(float(origin))).0, 0).clamp(0, 0xFFFF);
+                }
+            }
         } else {
-            Some(leaf.grid_ring()?.corners(lane, shape.turn())?)
-        };
-        is_odd ^= corners.is_some_and(|corners| is_crossed(&corners, place));
+            corners = leaf.grid_ring()?.corners(lane, shape.turn())?;
+        }
+        is_odd ^= is_crossed(&corners, place);
     }
     Some(is_odd)
-}
-
-/// The corners of a triangle with vertices in f32, which move down to the grid. `None` if the ray
-/// does not meet its box.
-#[inline(never)]
-fn f32_corners(leaf: &FanLeaf<'_>, lane: usize, [x, y, z]: [i32; 3]) -> Option<[[i32; 3]; 3]> {
-    let [a, b, c] = leaf.stored_corners(lane);
-    let ([ox, oy, oz], mut rows) = (leaf.origin, [[0; 3]; 3]);
-    let stored =
-        [([a.y, b.y, c.y], oy, y, 2), ([a.z, b.z, c.z], oz, z, 2), ([a.x, b.x, c.x], ox, x, 3)];
-    for (row, (stored, origin, place, most)) in rows.iter_mut().zip(stored) {
-        let mut above = 0;
-        for (whole, of) in row.iter_mut().zip(stored) {
-            *whole = floored((Real(of) - Real(float(origin))).0, 0).clamp(0, 0xFFFF);
-            above += u32::from(*whole > place >> FINE);
-        }
-        if above == 0 || above > most {
-            return None;
-        }
-    }
-    let [[ay, by, cy], [az, bz, cz], [ax, bx, cx]] = rows;
-    Some([[ax, ay, az], [bx, by, bz], [cx, cy, cz]])
 }
 
 /// Whether the ray crosses a triangle. Corners have 16 bits.

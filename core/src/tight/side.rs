@@ -19,7 +19,8 @@ pub(crate) fn is_outside_box(tree: &Bvh<'_>, point: [f32; 3]) -> bool {
 }
 
 /// Whether the hull's box, and the mesh before storing moved it, are certainly farther from a point
-/// than a distance, both in input units. Never if the point is refused. `core/docs/rounding.md` §12.
+/// than a distance, both in input units. Never if the point is refused. `core/docs/rounding.md`
+/// §12.
 pub(crate) fn is_box_beyond(tree: &Bvh<'_>, point: [f32; 3], distance: f32) -> bool {
     let (units, (low, high)) = (tree.units(), tree.grid_ends());
     let mut sum = Real::ZERO;

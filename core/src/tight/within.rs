@@ -18,8 +18,8 @@ impl TightHull<'_> {
     ///
     /// Cost: if the hull's box is farther, that of the distance from a box. If the hull is farther,
     /// that of its tree's `within`, and inside the hull's box also of a ray through the hull. Else
-    /// also that of its tree's `within` for the distance less the hull's slack, and if that does not
-    /// decide, of its tree's closest point.
+    /// also that of its tree's `within` for the distance less the hull's slack, and if that does
+    /// not decide, of its tree's closest point.
     ///
     /// ```
     /// use meshsweep_core::{Budget, Scratch, TightHulls};

@@ -238,8 +238,8 @@ fn no_point_of_a_face_is_farther_from_the_mesh_than_the_face_says() {
     }
 }
 
-/// Off the surface a side is always told: outside the lower end is the hull's distance, inside it is
-/// less by the hull's depth. Half of the points have coordinates of the hull's vertices.
+/// Off the surface a side is always told: outside the lower end is the hull's distance, inside it
+/// is less by the hull's depth. Half of the points have coordinates of the hull's vertices.
 #[test]
 fn within_the_box_the_side_is_that_of_the_winding_number() {
     let shapes = [torus(2.0, 0.75, 16, 10), bracket(), two_parts()];

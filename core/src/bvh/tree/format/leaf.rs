@@ -240,8 +240,8 @@ impl<'a> FanLeaf<'a> {
         })
     }
 
-    /// Bits of the ring vertices of a leaf on the grid whose stored coordinate is above `floor`, the
-    /// first vertex's lowest, and the same of both centres. Bits past the ring have no meaning.
+    /// Bits of the ring vertices of a leaf on the grid whose stored coordinate is above `floor`,
+    /// the first vertex's lowest, and the same of both centres. Bits past the ring have no meaning.
     #[inline(always)]
     pub(crate) fn above(&self, axis: usize, floor: i32) -> Option<(u32, u32, u32)> {
         let window = self.bytes.first_chunk::<GRID_WINDOW>()?;
@@ -253,6 +253,22 @@ impl<'a> FanLeaf<'a> {
             ring = ring << 1 | is_above(short_of(*pair));
         }
         let centre = |which: usize| is_above(short(window, 6 * which + 2 * axis));
+        Some((ring, centre(0), centre(centres - 1)))
+    }
+
+    /// The same of a leaf with f32 vertices, whose coordinates are moved down to the grid.
+    #[inline(never)]
+    pub(crate) fn f32_above(&self, axis: usize, floor: i32) -> Option<(u32, u32, u32)> {
+        let (centres, step) = (self.shape.centres(), 2 * (self.shape.triangles() + 1));
+        let origin = Real(float(*self.origin.get(axis)?));
+        let least = Real(float(floor.wrapping_add(1)));
+        // Every number is twice as long as on the grid.
+        let is_above = |at: usize| u32::from(Real(f32_at(self.bytes, 2 * at)) - origin >= least);
+        let mut ring = 0;
+        for vertex in (0..=self.shape.triangles()).rev() {
+            ring = ring << 1 | is_above(6 * centres + step * axis + 2 * vertex);
+        }
+        let centre = |which: usize| is_above(6 * which + 2 * axis);
         Some((ring, centre(0), centre(centres - 1)))
     }
 
