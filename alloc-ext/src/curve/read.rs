@@ -130,6 +130,8 @@ impl Plain {
         let cuts = first[..before(first)].split(|&byte| byte == separator).all(is_number);
         let (mut plain, mut comments) = (Vec::with_capacity(bytes.len() + 1), Vec::new());
         for (line, number) in bytes.split(|&byte| byte == b'\n').zip(1..) {
+            // The reader would count the line at the next record.
+            let line = line.strip_suffix(b"\r").unwrap_or(line);
             match begin(line) {
                 Some(b'#') => comments.push(number),
                 _ => plain.extend(&line[..if cuts { before(line) } else { line.len() }]),
@@ -297,6 +299,7 @@ mod tests {
             Err(CurveError::Number { line, field, text: text.to_owned() })
         };
         assert_eq!(read("x,y\n1,2\n\n3,four\n"), number(4, 2, "four"));
+        assert_eq!(read("x,y\r\n1,2\r\n\r\n3,four\r\n"), number(4, 2, "four"));
         assert_eq!(read("1,nan\n"), number(1, 2, "nan"));
         assert_eq!(read("1,2\ninf,2"), number(2, 1, "inf"));
         assert_eq!(read("1,2\n\n\n3,1e39"), number(4, 2, "1e39"));
