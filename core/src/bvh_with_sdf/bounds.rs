@@ -134,7 +134,7 @@ impl BvhWithSdf<'_> {
                 ended: signed.closest.ended,
             });
         }
-        let outward = found.map_or(UNKNOWN, |found| self.to_surface(&found));
+        let outward = found.map_or(UNKNOWN, |found| self.surface_interval(&found));
         let near = self.closest_between(point, &outward, budget, scratch);
         let near = near.as_ref().map_err(|&refused| refused)?;
         Ok(SignedBounds {

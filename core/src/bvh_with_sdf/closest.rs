@@ -50,7 +50,7 @@ impl BvhWithSdf<'_> {
     ) -> Result<SignedDistance, QueryError> {
         budget.check_with(scratch)?;
         let found = self.look_up(point);
-        let known = found.map_or(UNKNOWN, |found| self.to_surface(&found));
+        let known = found.map_or(UNKNOWN, |found| self.surface_interval(&found));
         match found.map(|found| found.side) {
             Some(side @ (Side::Outside | Side::Inside)) => {
                 let closest = self.closest_between(point, &known, budget, scratch)?;

@@ -79,7 +79,7 @@ impl<'a> BvhWithSdf<'a> {
 
     /// Bounds of the distance to the surface, without its sign, from an answer of the field.
     #[inline(always)]
-    pub(super) fn to_surface(&self, found: &FieldDistance) -> Interval {
+    pub(super) fn surface_interval(&self, found: &FieldDistance) -> Interval {
         let Interval { lower, upper } = found.distance;
         if lower > 0.0 {
             found.distance
@@ -96,7 +96,7 @@ impl<'a> BvhWithSdf<'a> {
     /// The same of a point.
     #[inline(always)]
     pub(super) fn known(&self, point: [f32; 3]) -> Interval {
-        self.look_up(point).map_or(UNKNOWN, |found| self.to_surface(&found))
+        self.look_up(point).map_or(UNKNOWN, |found| self.surface_interval(&found))
     }
 
     /// Refuses a tree without boxes for distances, though the field might answer: a question is

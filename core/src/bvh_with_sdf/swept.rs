@@ -176,7 +176,8 @@ impl BvhWithSdf<'_> {
                     Ball::Undecided => return None,
                 }
             }
-            if !(t >= 1.0) {
+            let is_covered = t >= 1.0;
+            if !is_covered {
                 return None;
             }
         }

@@ -10,6 +10,7 @@ use meshsweep_host_tests::generate::{
     Rng, Triangles, block, bracket, icosphere, joined, plate, rough_sphere, scaled, transformed,
 };
 use meshsweep_host_tests::oracle::{Bounded, distance_to_mesh, winding_number};
+use std::sync::LazyLock;
 
 const POINTS: usize = 96;
 
@@ -96,8 +97,13 @@ fn moved(mesh: &Triangles, by: [f32; 3]) -> Triangles {
     transformed(mesh, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], by)
 }
 
-/// Meshes of every kind of field, at several scales.
-pub fn cases() -> Vec<Case> {
+/// Meshes of every kind of field, at several scales. Built once: proofs take long.
+pub fn cases() -> &'static [Case] {
+    static CASES: LazyLock<Vec<Case>> = LazyLock::new(made);
+    &CASES
+}
+
+fn made() -> Vec<Case> {
     let crossed = joined(&icosphere(2), &moved(&icosphere(2), [0.9, 0.3, 0.2]));
     let (positions, triangles) = block([0.0; 3], [3.0, 2.0, 1.0]);
     let sheet = (positions, triangles[..6].to_vec());
@@ -249,7 +255,7 @@ fn no_side_is_wrong_and_signed_intervals_hold() {
                 both.tree().signed_distance(p, Budget::EXACT, &mut stack).expect("answers");
             let signed = both.signed_distance(p, Budget::EXACT, &mut stack).expect("answers");
             let name = format!("{} {p:?}", case.name);
-            assert_side(&case, p, truth, signed.side);
+            assert_side(case, p, truth, signed.side);
             if !matches!(by_tree.side, Side::Undecided(_)) {
                 assert_eq!(signed.side, by_tree.side, "{name}");
             }
@@ -257,12 +263,12 @@ fn no_side_is_wrong_and_signed_intervals_hold() {
             assert_eq!(signed.closest.triangle, by_tree.closest.triangle, "{name}");
             for (budget, ..) in tolerances(case.diagonal()) {
                 let found = both.signed_bounds(p, budget, &mut stack).expect("answers");
-                assert_side(&case, p, truth, found.side);
+                assert_side(case, p, truth, found.side);
                 let Interval { lower, upper } = found.distance;
                 assert!(lower <= upper, "{name}: {found:?}");
                 let mirrored = Interval::new(-upper, -lower);
                 let (outside, inside) = (holds(found.distance, truth), holds(mirrored, truth));
-                match (found.side, is_inside(&case, p, truth)) {
+                match (found.side, is_inside(case, p, truth)) {
                     (Side::Inside, _) | (_, Some(true)) => assert!(inside, "{name}: {found:?}"),
                     (Side::Outside, _) | (_, Some(false)) => assert!(outside, "{name}: {found:?}"),
                     _ => assert!(outside || inside, "{name}: {found:?}"),

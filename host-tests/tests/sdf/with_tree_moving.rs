@@ -52,8 +52,8 @@ fn no_verdict_about_a_solid_is_wrong_and_the_tree_s_stand() {
     for case in cases() {
         let (both, mut rng) = (case.open(), Rng::new(11));
         for number in 0..SOLIDS {
-            let ends = ends(&case, &mut rng, number);
-            let gap = gap(&case, ends);
+            let ends = ends(case, &mut rng, number);
+            let gap = gap(case, ends);
             if gap > 100.0 * case.diagonal() {
                 continue;
             }
@@ -93,8 +93,8 @@ fn no_motion_that_meets_the_surface_is_clear_and_what_the_tree_clears_is_clear()
     for case in cases() {
         let (both, mut rng) = (case.open(), Rng::new(12));
         for number in 0..SOLIDS {
-            let from = ends(&case, &mut rng, number);
-            let mut to = ends(&case, &mut rng, number / 2);
+            let from = ends(case, &mut rng, number);
+            let mut to = ends(case, &mut rng, number / 2);
             if from[0] == from[1] {
                 to[1] = to[0];
             } else if to[0] == to[1] {
@@ -107,7 +107,7 @@ fn no_motion_that_meets_the_surface_is_clear_and_what_the_tree_clears_is_clear()
                     continue;
                 }
             }
-            let least = (0..=64).map(|part| gap(&case, at(&from, &to, f64::from(part) / 64.0)));
+            let least = (0..=64).map(|part| gap(case, at(&from, &to, f64::from(part) / 64.0)));
             let least = least.fold(f64::INFINITY, f64::min);
             let far = number % 8 == 7 || (number / 2) % 8 == 7;
             if least > 100.0 * case.diagonal() {
@@ -151,7 +151,7 @@ fn no_motion_that_meets_the_surface_is_clear_and_what_the_tree_clears_is_clear()
 
 #[test]
 fn a_solid_of_many_corners_is_the_tree_s() {
-    let case = cases().swap_remove(1);
+    let case = &cases()[1];
     let both = case.open();
     let corners = Solid::box_corners([100.0, 0.0, 0.0], [110.0, 10.0, 10.0]);
     let solid = Solid::new(&corners, 1.0).expect("a solid");
