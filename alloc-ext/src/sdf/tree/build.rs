@@ -26,7 +26,7 @@ const FLOOR: f64 = 3e-4;
 
 /// The least radius of a box, as a part of the leaf's width, if that is more. Large leaves have too
 /// many boxes of the other.
-const FLOOR_OF_WIDTH: f64 = 1.0 / 48.0;
+const FLOOR_OF_WIDTH: f64 = 1.0 / 16.0;
 
 /// Steps along each side of a leaf at whose places it is fitted at last: of most leaves, and of those
 /// with a side of more than a quarter of a root cell's.
