@@ -117,7 +117,8 @@ pub struct SdfReport {
 /// [`BuildError::MarginTooLarge`]: mesh and margin leave the range of f32.
 /// [`BuildError::FieldUnit`]: a unit is no normal f32, or f32 cannot place the lattice about the
 /// mesh. [`BuildError::NoSides`]: a signed or solid field of a mesh that is not closed, or whose
-/// walls were merged. [`BuildError::FieldTooWide`]: an error does not fit 16 bits.
+/// walls were merged. [`BuildError::FieldTooWide`]: an error does not fit 16 bits, in any
+/// layout that was asked for.
 /// [`BuildError::Cancelled`].
 pub fn build(
     input: Input<'_>,
@@ -147,11 +148,18 @@ pub fn build(
     let of = Work { input, surface, options, kind, sides: sides.as_ref() };
     let is_wanted = |layout| options.layout.is_none_or(|wanted| wanted == layout);
     let lattice = match is_wanted(SdfLayout::Lattice) {
-        true => Some(of.lattice(watch.part(0.0, 0.5))?),
+        true => match of.lattice(watch.part(0.0, 0.5)) {
+            Err(BuildError::FieldTooWide { .. }) => None,
+            found => Some(found?),
+        },
         false => None,
     };
     let tree = match is_wanted(SdfLayout::Tree) {
-        true => of.tree(watch.part(0.5, 1.0))?,
+        // A unit of a tree is smaller: what f32 cannot place may fit a lattice.
+        true => match of.tree(watch.part(0.5, 1.0)) {
+            Err(BuildError::FieldUnit { .. }) if lattice.is_some() => None,
+            found => found?,
+        },
         false => None,
     };
     let width = |field: &Option<Field>| field.as_ref().map(|field| field.report.mean_width);

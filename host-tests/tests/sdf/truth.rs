@@ -1,9 +1,9 @@
 //! No distance lies outside of the proved interval.
 
 use super::decoded::Field;
-use meshsweep::Builder;
 use meshsweep::builder::{For, SdfKind, SdfLayout};
 use meshsweep::mesh::RawMesh;
+use meshsweep::{BuildError, Builder};
 use meshsweep_host_tests::generate::evil::glued_blocks;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, block, bracket, icosphere, joined, plate, rough_sphere, scaled, transformed,
@@ -20,9 +20,14 @@ fn built(
     kind: SdfKind,
     layout: SdfLayout,
     bytes: u32,
-) -> Vec<u8> {
+) -> Option<Vec<u8>> {
     let builder = Builder::new().serve(For::Sdf).sdf_kind(kind).sdf_layout(layout).sdf_bytes(bytes);
-    builder.build(RawMesh::from_f32(positions, triangles)).expect("builds").into_bytes()
+    match builder.build(RawMesh::from_f32(positions, triangles)) {
+        // The widths of a few large leaves about a thin wall may have no room. By default such a
+        // field is a lattice.
+        Err(BuildError::FieldTooWide { .. }) if layout == SdfLayout::Tree => None,
+        built => Some(built.expect("builds").into_bytes()),
+    }
 }
 
 /// A point of the field: anywhere, or near a place of a triangle.
@@ -97,7 +102,8 @@ fn assert_holds(name: &str, mesh: &Triangles, field: &Field, seed: u64) -> usize
 fn check(name: &str, mesh: &Triangles, kinds: &[SdfKind], bytes: u32) {
     for (number, &kind) in kinds.iter().enumerate() {
         for layout in SdfLayout::ALL {
-            let field = Field::of(&built(mesh, kind, layout, bytes));
+            let Some(bytes) = built(mesh, kind, layout, bytes) else { continue };
+            let field = Field::of(&bytes);
             assert_eq!(field.kind, kind as u8);
             assert_eq!(field.is_tree(), layout == SdfLayout::Tree);
             let name = format!("{name} {kind:?} {layout:?}");

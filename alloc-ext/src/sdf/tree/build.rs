@@ -24,6 +24,10 @@ use meshsweep_core::{SdfKind, SdfLayout};
 const SLACK: f64 = 1e-4;
 const FLOOR: f64 = 3e-4;
 
+/// The least radius of a box, as a part of the leaf's width, if that is more. Large leaves have too
+/// many boxes of the other.
+const FLOOR_OF_WIDTH: f64 = 1.0 / 16.0;
+
 /// Steps along each side of a leaf at whose places it is fitted at last: of most leaves, and of those
 /// with a side of more than a quarter of a root cell's.
 const STEPS: [usize; 2] = [8, 12];
@@ -127,24 +131,25 @@ pub(in crate::sdf) fn build(
     let mut batch = Batch::default();
     let weights: Vec<f64> = leaves.iter().map(|leaf| leaf.weight(&mut batch, kind, near)).collect();
     let widths: Vec<u32> = asked.iter().map(|coded| coded.width).collect();
-    let mut book: [u32; WIDTHS] = book(&widths, &weights);
+    let first: [u32; WIDTHS] = book(&widths, &weights);
     let held = |leaf: &Made, code: i64, width: u32| {
         let [below, above] = leaf.losses(off);
         (scale.value(code), Errors { low: -above, high: f64::from(width) - below })
     };
     let proofs = watch.part(0.65, 1.0).map(leaves.len(), |number| {
         let (leaf, Coded { code, width }) = (&leaves[number], asked[number]);
-        let width = book[books::entry(&book, width)];
+        let width = first[books::entry(&first, width)];
         let (offset, wanted) = held(leaf, code, width);
         let half = leaf.of.half();
         let function = Leaf { half, shape: leaf.fitted.shape, offset };
         let boxed = [leaf.of.corner(), 2.0 * half];
-        Prover::cell(truth, function, boxed, wanted, FLOOR * domain.diagonal)
+        let floor = (FLOOR * domain.diagonal).max(FLOOR_OF_WIDTH * f64::from(width));
+        Prover::cell(truth, function, boxed, wanted, floor)
     })?;
     let mut needed: Vec<Coded> = (leaves.iter().zip(&asked).zip(&proofs))
         .map(|((leaf, &coded), proof)| {
             if !proof.is_widened {
-                return Coded { width: book[books::entry(&book, coded.width)], ..coded };
+                return Coded { width: first[books::entry(&first, coded.width)], ..coded };
             }
             let (offset, wanted) = held(leaf, coded.code, 0);
             let down = ((proof.errors.low - wanted.low) / scale.step()).ceil();
@@ -153,8 +158,9 @@ pub(in crate::sdf) fn build(
         })
         .collect();
     let Some(scale) = scale.holding(&mut needed) else { return Ok(None) };
-    let widest = needed.iter().map(|coded| coded.width).max().unwrap_or(0);
-    book[WIDTHS - 1] = widest.max(book[WIDTHS - 1]);
+    // The entries that were proved, and the widths that had to grow, have one book more.
+    let widths: Vec<u32> = needed.iter().map(|coded| coded.width).collect();
+    let book: [u32; WIDTHS] = book(&widths, &weights);
     if book[WIDTHS - 1] > u32::from(u16::MAX) {
         return Ok(None);
     }
