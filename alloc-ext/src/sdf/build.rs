@@ -274,6 +274,11 @@ impl Work<'_> {
     fn tree(&self, watch: Watch<'_>) -> Result<Option<Field>, BuildError> {
         let Self { kind, options, .. } = *self;
         let domain = Domain::of_tree(&self.surface, options.margin, options.bytes as usize)?;
+        // More than any bound of a tree, in units: the core refuses a field whose bounds overflow.
+        if ((1u32 << 22) as f32 / domain.per_unit).is_infinite() {
+            let size = self.surface.high - self.surface.low;
+            return Err(BuildError::FieldUnit { side: size.max_element() });
+        }
         let truth = Truth::new(self.input.mesh, domain, kind, self.sides);
         watch.step(2, 100)?;
         let watch = watch.part(0.02, 1.0);

@@ -30,11 +30,12 @@ pub(super) const MARGIN: f64 = 1.0 / (1 << 20) as f64;
 /// Triangles that are this much farther than the nearest one count as nearest too, units.
 pub(super) const TIE: f64 = 1.0 / (1 << 10) as f64;
 
-/// Radii of a box by which its ball is larger than the distance. At least 2, so that balls of parts
-/// lie in that of the whole.
+/// Radii of a box by which its ball is larger than the distance. At least 2.25, for the proof of
+/// flat surfaces (`super::bound`). Of cubes, balls of parts then lie in that of the whole; parts of
+/// other boxes are asked.
 const BALL: f64 = 2.3;
 
-/// A surface that is nearer than so many radii may meet the box. At least 1, for the same.
+/// A surface that is nearer than so many radii may meet the box. At least 1.
 const MET: f64 = 1.01;
 
 /// Triangles of a group.
@@ -148,7 +149,7 @@ impl Region {
     }
 
     /// Radius of the ball about the centre whose triangles are kept, if the surface meets the box.
-    /// Balls of the box's parts lie in it.
+    /// Where the ball of a part is not within that of the whole, the part has none.
     pub fn ball(&self) -> Option<f64> {
         let is_met = self.has_ball && self.distance <= MET * self.radius;
         is_met.then_some(self.distance + BALL * self.radius)
@@ -325,8 +326,10 @@ impl Facets {
         let moved = centre - whole.centre;
         let nearest = self.nearest(whole, &nears[range.clone()], centre);
         // Where the surface misses the whole it misses the part.
-        let has_ball = whole.ball().is_some();
-        let mut region = Region::new([centre, half], nearest, has_ball);
+        let mut region = Region::new([centre, half], nearest, whole.ball().is_some());
+        // Only triangles in the whole's ball were kept.
+        let is_within = |ball: f64| whole.ball().is_some_and(|of| ball + moved.length() <= of);
+        region.has_ball = region.ball().is_none_or(is_within);
         let start = nears.len();
         // A triangle's height over the whole bounds its distance in the part too.
         let ball = region.ball().unwrap_or(f64::NEG_INFINITY) + TIE;

@@ -15,8 +15,8 @@ const OUTSIDE: [[f64; 2]; 2] = [[450.0, 450.0 - 184.3], [8020.0, 8020.0 - 2152.0
 const COSTLIEST: [f64; 2] = [1.15, 1.5];
 
 /// Most instructions of a look-up anywhere, whatever the points that were measured: a limit of time
-/// takes this, and no search for a costly place. A layout whose look-ups take a number of steps
-/// multiplies by the field's largest number of them here.
+/// takes this, and no search for a costly place. Fields that are measured are lattices: see
+/// [`Recipe::Sdf`](crate::builder::Recipe::Sdf).
 pub(super) fn most(board: Board) -> f64 {
     let [outside, ..] = cost(board).instructions;
     outside

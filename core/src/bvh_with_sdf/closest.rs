@@ -9,8 +9,9 @@ use crate::query::{
 impl BvhWithSdf<'_> {
     /// [`Bvh::closest_point`](crate::Bvh::closest_point). The field's interval limits the search:
     /// no triangle beyond its upper end is looked at, and with a tolerance a triangle that is near
-    /// enough to its lower end ends the search. Without a tolerance the answer has the tree's bits;
-    /// then processors with vector registers, or without floating point, ask the tree alone.
+    /// enough to its lower end ends the search. With a limit of steps, or with less scratch than the
+    /// tree asks for, the search is the tree's own. Without a tolerance the answer has the tree's bits,
+    /// but for `work`; then processors with vector registers, or without floating point, ask the tree alone.
     ///
     /// With a tolerance the lower end of the distance is the greater one of both. The upper end is
     /// that of the triangle found. If the distance is enough without a point,
@@ -60,17 +61,15 @@ impl BvhWithSdf<'_> {
         }
     }
 
-    /// Whether the field's interval limits the search. Where steps or memory may end an exact
-    /// search, its order must be that of all targets. Vector targets search exact points in an
-    /// order of their own, and integers have limits of their own.
+    /// Whether the field's interval limits the search. Where steps or memory may end a search, it is
+    /// the tree's own: a search that ends before it found a triangle within the limit would know
+    /// none. Vector targets search exact points in an order of their own, and integers have limits
+    /// of their own.
     #[inline(always)]
     fn is_limited(&self, budget: &Budget, scratch: &[ScratchEntry]) -> bool {
-        if !is_exact(budget) {
-            return true;
-        }
-        !(SOFT_FLOAT || cfg!(meshsweep_wide))
-            && budget.steps == Budget::EXACT.steps
-            && scratch.len() >= self.tree().scratch_entries()
+        budget.steps == Budget::EXACT.steps
+            && scratch.len() >= self.tree().scratch_entries_for(*budget)
+            && (!is_exact(budget) || !(SOFT_FLOAT || cfg!(meshsweep_wide)))
     }
 
     /// The tree's closest point, between the ends of a known interval of the distance.

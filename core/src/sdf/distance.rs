@@ -1,6 +1,6 @@
 //! The questions of the distance field in input units.
 
-use super::format::{Sdf, SdfKind, SdfLayout};
+use super::format::{Sdf, SdfKind};
 use super::place::Place;
 use super::value::SLOPE_BITS;
 use crate::num::{each, greater, lesser, sqrt_approx};
@@ -62,15 +62,24 @@ impl Sdf<'_> {
     /// from the field's least corner.
     #[inline(never)]
     pub fn distance(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
-        let bounds = match self.place(point)? {
-            Place::Lattice(place) => self.value(place)?,
-            Place::Tree(place) => self.tree_value(place)?,
+        Ok(match self.place(point)? {
+            Place::Lattice(place) => self.answer(self.within_field(self.value(place)?)),
+            Place::OfTree => return self.distance_of_tree(point),
             Place::Beyond(place, beyond) => {
-                let bounds = bounds_beyond(self.value_of_any(place)?, beyond);
-                return Ok(self.answer(self.outside_field(bounds)));
+                self.answer(self.outside_field(bounds_beyond(self.value(place)?, beyond)))
             }
+        })
+    }
+
+    #[inline(never)]
+    fn distance_of_tree(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
+        if let Some(place) = self.within_units(point, self.units) {
+            return Ok(self.answer(self.within_field(self.tree_value(place)?)));
+        }
+        let Place::Beyond(place, beyond) = self.beyond(point)? else {
+            return Err(QueryError::Unchecked);
         };
-        Ok(self.answer(self.within_field(bounds)))
+        Ok(self.answer(self.outside_field(bounds_beyond(self.tree_value(place)?, beyond))))
     }
 
     /// [`distance`](Self::distance), and the gradient at the point: the direction in which the
@@ -97,19 +106,31 @@ impl Sdf<'_> {
                 let (bounds, gradient) = self.value_and_slopes(place)?;
                 (self.answer(self.within_field(bounds)), slopes(gradient))
             }
-            Place::Tree(place) => {
-                let (bounds, gradient) = self.tree_value_and_slopes(place)?;
-                (self.answer(self.within_field(bounds)), slopes(gradient))
-            }
+            Place::OfTree => return self.distance_and_gradient_of_tree(point),
             Place::Beyond(place, beyond) => {
-                let (bounds @ [_, far], gradient) = match self.layout {
-                    SdfLayout::Lattice => self.value_and_slopes(place)?,
-                    SdfLayout::Tree => self.tree_value_and_slopes(place)?,
-                };
+                let (bounds @ [_, far], gradient) = self.value_and_slopes(place)?;
                 let found = self.answer(self.outside_field(bounds_beyond(bounds, beyond)));
                 (found, away(beyond, far as f32, slopes(gradient)))
             }
         })
+    }
+
+    #[inline(never)]
+    fn distance_and_gradient_of_tree(
+        &self,
+        point: [f32; 3],
+    ) -> Result<(FieldDistance, [f32; 3]), QueryError> {
+        let slopes = |slopes: [i32; 3]| each(slopes, |slope| slope as f32 * SLOPE);
+        if let Some(place) = self.within_units(point, self.units) {
+            let (bounds, gradient) = self.tree_value_and_slopes(place)?;
+            return Ok((self.answer(self.within_field(bounds)), slopes(gradient)));
+        }
+        let Place::Beyond(place, beyond) = self.beyond(point)? else {
+            return Err(QueryError::Unchecked);
+        };
+        let (bounds @ [_, far], gradient) = self.tree_value_and_slopes(place)?;
+        let found = self.answer(self.outside_field(bounds_beyond(bounds, beyond)));
+        Ok((found, away(beyond, far as f32, slopes(gradient))))
     }
 
     /// Whether the surface is at most `distance` from `point`, both in input units. Of a field of

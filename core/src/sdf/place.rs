@@ -12,10 +12,11 @@ const FARTHEST: f32 = (1u64 << 60) as f32;
 pub(super) enum Place {
     /// In a lattice: whole units from its corner 0, below the field's size on each axis.
     Lattice([u32; 3]),
-    /// The same in a tree.
-    Tree([u32; 3]),
-    /// Outside: the nearest such place, and how far along each axis the point is beyond the field,
-    /// units: below 0 on the lower side.
+    /// In a tree, or outside of it: functions of its own answer, so that a lattice's look-up keeps
+    /// its registers.
+    OfTree,
+    /// Outside: the nearest place of the field, and how far along each axis the point is beyond the
+    /// field, units: below 0 on the lower side.
     Beyond([u32; 3], [f32; 3]),
 }
 
@@ -30,18 +31,22 @@ impl Sdf<'_> {
     /// rounding. A difference and a product lose at most two parts in 2^24 of fewer than 2^19 units.
     #[inline(always)]
     pub(super) fn place(&self, point: [f32; 3]) -> Result<Place, QueryError> {
+        if let Some(whole) = self.within_units(point, self.lattice) {
+            return Ok(Place::Lattice(whole));
+        }
+        if self.layout == SdfLayout::Tree {
+            return Ok(Place::OfTree);
+        }
+        self.beyond(point)
+    }
+
+    /// Whole units of a point in a field of so many.
+    #[inline(always)]
+    pub(super) fn within_units(&self, point: [f32; 3], units: [u32; 3]) -> Option<[u32; 3]> {
         let [x, y, z] = self.unrounded(point);
         // A negative number becomes 0, and NaN is not above 0.
         let whole = [x as u32, y as u32, z as u32];
-        if x >= 0.0 && y >= 0.0 && z >= 0.0 {
-            if are_below(whole, self.lattice) {
-                return Ok(Place::Lattice(whole));
-            }
-            if self.layout == SdfLayout::Tree && are_below(whole, self.units) {
-                return Ok(Place::Tree(whole));
-            }
-        }
-        self.beyond(point)
+        (x >= 0.0 && y >= 0.0 && z >= 0.0 && are_below(whole, units)).then_some(whole)
     }
 
     /// The point in units from the origin, f32. Truncation rounds it to the nearest unit from corner
@@ -54,7 +59,7 @@ impl Sdf<'_> {
 
     #[cold]
     #[inline(never)]
-    fn beyond(&self, point @ [x, y, z]: [f32; 3]) -> Result<Place, QueryError> {
+    pub(super) fn beyond(&self, point @ [x, y, z]: [f32; 3]) -> Result<Place, QueryError> {
         if !point.iter().all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
         }
@@ -83,9 +88,10 @@ impl Sdf<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::OutOfDomain`] outside of the field.
     pub fn units_of(&self, point: [f32; 3]) -> Result<[i32; 3], QueryError> {
-        match self.place(point)? {
-            Place::Lattice(whole) | Place::Tree(whole) => Ok(each(whole, u32::cast_signed)),
-            Place::Beyond(..) => Err(QueryError::OutOfDomain),
+        match self.within_units(point, self.units) {
+            Some(whole) => Ok(each(whole, u32::cast_signed)),
+            // The refusal of a point that is not finite.
+            None => self.beyond(point).and(Err(QueryError::OutOfDomain)),
         }
     }
 }

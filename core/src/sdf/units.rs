@@ -39,18 +39,28 @@ impl Sdf<'_> {
             let [lower, upper] = self.value(whole)?;
             return Ok(UnitDistance { lower, upper });
         }
-        self.distance_elsewhere(place)
+        if self.layout == SdfLayout::Tree {
+            return self.distance_of_tree_in_units(place);
+        }
+        self.distance_beyond(place)
     }
 
-    /// In a tree, or outside.
+    #[cold]
     #[inline(never)]
-    fn distance_elsewhere(&self, place: [i32; 3]) -> Result<UnitDistance, QueryError> {
+    fn distance_beyond(&self, place: [i32; 3]) -> Result<UnitDistance, QueryError> {
+        let (nearest, beyond) = self.nearest(place)?;
+        Ok(outside(self.value(nearest)?, beyond))
+    }
+
+    #[inline(never)]
+    fn distance_of_tree_in_units(&self, place: [i32; 3]) -> Result<UnitDistance, QueryError> {
         let whole = each(place, i32::cast_unsigned);
-        if self.layout == SdfLayout::Tree && are_below(whole, self.units) {
+        if are_below(whole, self.units) {
             let [lower, upper] = self.tree_value(whole)?;
             return Ok(UnitDistance { lower, upper });
         }
-        self.distance_beyond(place)
+        let (nearest, beyond) = self.nearest(place)?;
+        Ok(outside(self.tree_value(nearest)?, beyond))
     }
 
     /// The gradient at a place, 32,768 for 1: the direction in which the distance rises the most. See
@@ -72,9 +82,10 @@ impl Sdf<'_> {
         Err(QueryError::OutOfDomain)
     }
 
-    #[cold]
-    #[inline(never)]
-    fn distance_beyond(&self, place: [i32; 3]) -> Result<UnitDistance, QueryError> {
+    /// The nearest place of the field, and how far the place is beyond: the greatest of the
+    /// coordinates' distances, and their sum.
+    #[inline(always)]
+    fn nearest(&self, place: [i32; 3]) -> Result<([u32; 3], [i32; 2]), QueryError> {
         let (mut nearest, mut greatest, mut sum) = ([0; 3], 0, 0);
         for ((near, at), units) in nearest.iter_mut().zip(place).zip(self.units) {
             if at.unsigned_abs() > MOST_BASE.unsigned_abs() {
@@ -87,9 +98,16 @@ impl Sdf<'_> {
             greatest = beyond.max(greatest);
             sum = beyond.wrapping_add(sum);
         }
-        let [lower, upper] = self.value_of_any(nearest)?;
-        // Outside of the field no distance is negative. The nearest place may be a unit within the field along each axis: a diagonal below 2.
-        let lower = lower.wrapping_sub(2).max(greatest.wrapping_sub(1));
-        Ok(UnitDistance { lower, upper: upper.max(0).wrapping_add(sum) })
+        Ok((nearest, [greatest, sum]))
     }
+}
+
+/// Bounds of the distance of a place outside of the field, from those at the nearest place of it.
+///
+/// Outside of the field no distance is negative. The nearest place may be a unit within the field
+/// along each axis: a diagonal below 2.
+#[inline(always)]
+fn outside([lower, upper]: [i32; 2], [greatest, sum]: [i32; 2]) -> UnitDistance {
+    let lower = lower.wrapping_sub(2).max(greatest.wrapping_sub(1));
+    UnitDistance { lower, upper: upper.max(0).wrapping_add(sum) }
 }

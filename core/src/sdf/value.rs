@@ -6,8 +6,8 @@
 //! at most [`value_loss`](super::format::layout::value_loss) units too small. The builder adds these
 //! to the errors above.
 
+use super::format::Sdf;
 use super::format::layout::{BOOK, CELL_UNITS, FRACTION_BITS, VALUE_BITS};
-use super::format::{Sdf, SdfLayout};
 use crate::num::{each, greater};
 use crate::query::QueryError;
 
@@ -78,12 +78,6 @@ impl Sdf<'_> {
     #[inline(always)]
     fn bounds_at(&self, place: [u32; 3]) -> Option<[i32; 2]> {
         self.interval_at(&self.corners(place)?)
-    }
-
-    /// The same of either layout.
-    #[inline(always)]
-    pub(super) fn value_of_any(&self, place: [u32; 3]) -> Result<[i32; 2], QueryError> {
-        if self.layout == SdfLayout::Tree { self.tree_value(place) } else { self.value(place) }
     }
 
     /// The bounds and the gradient, in 2^-15.

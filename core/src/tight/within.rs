@@ -61,16 +61,16 @@ impl TightHull<'_> {
         // If the slack is more than half of the distance, that is rare.
         let (slack, inner) = (self.record().slack, sum_down(distance, -self.record().slack));
         if near.verdict == Verdict::Yes && inner >= slack {
-            let near = tree.within(point, inner, budget, scratch)?;
+            let near = tree.within(point, inner, after(budget, work), scratch)?;
             work = work.and(near.work);
             if near.verdict == Verdict::Yes {
                 return answer(Verdict::Yes, work);
             }
         }
         let (closest, is_outside) = if near.is_clear() {
-            seen_from(tree, point, budget.steps, scratch)?
+            seen_from(tree, point, after(budget, work).steps, scratch)?
         } else {
-            let budget = Budget::EXACT.with_steps(budget.steps);
+            let budget = Budget::EXACT.with_steps(after(budget, work).steps);
             (tree.closest_point(point, budget, scratch)?, false)
         };
         work = work.and(closest.work);
@@ -85,5 +85,14 @@ impl TightHull<'_> {
             _ => Undecided::Resolution,
         };
         answer(Verdict::Undecided(why), work)
+    }
+}
+
+/// What is left of a budget after some work.
+#[inline(always)]
+fn after(budget: Budget, work: Work) -> Budget {
+    match budget.steps {
+        u32::MAX => budget,
+        steps => budget.with_steps(steps.saturating_sub(work.opened)),
     }
 }

@@ -110,6 +110,13 @@ impl Field {
                 <[u8; 5]>::try_from(entry).map_err(|_| "a part of an entry".to_owned())
             });
             let entries = entries.collect::<Result<Vec<_>, _>>()?;
+            // Beyond these the core's integers would overflow.
+            if step > 16_384.0 || base.abs() > 2f64.powi(28) {
+                return Err("the step or the base of the tree is too large".to_owned());
+            }
+            if cells.iter().any(|&roots| roots > 7) || entries.len() > 1 << 16 {
+                return Err("the tree has too many root cells or entries".to_owned());
+            }
             let leaves = leaves(&entries, cells)?;
             tree = Some((entries, leaves));
         } else {

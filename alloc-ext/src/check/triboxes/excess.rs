@@ -65,7 +65,7 @@ impl Content<'_> {
         let Some(first) = far(&held) else { return Reach::Within };
         let Some(winding) = self.winding else { return first };
         // A corner on a face is on the surface, and so inside.
-        let is_inside = |p: &&DVec3| winding.around(p.to_array()).map_or(true, |turns| turns != 0);
+        let is_inside = |p: &&DVec3| winding.around(p.to_array()) != Ok(0);
         held.extend(corners.iter().filter(is_inside));
         far(&held).unwrap_or(Reach::Within)
     }

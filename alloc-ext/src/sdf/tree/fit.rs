@@ -197,9 +197,9 @@ fn solved(mut rows: [[f64; 5]; 4]) -> [f64; 4] {
         if row[pivot] <= 1e-6 * scale {
             continue;
         }
-        for below in pivot + 1..4 {
-            let factor = rows[below][pivot] / row[pivot];
-            for (to, from) in rows[below].iter_mut().zip(row) {
+        for below in rows.iter_mut().skip(pivot + 1) {
+            let factor = below[pivot] / row[pivot];
+            for (to, from) in below.iter_mut().zip(row) {
                 *to -= factor * from;
             }
         }

@@ -60,11 +60,11 @@ pub(super) fn search(
     Ok(choices)
 }
 
-/// The entries of the partition: nodes as they stand, and leaves to be filled. Also the steps.
-pub(super) fn entries(
-    domain: &Domain,
-    choices: &[Choice],
-) -> Option<(Vec<[u8; ENTRY_BYTES]>, Vec<(usize, Box3)>, u8)> {
+/// Entries, the numbers of those that are leaves with their boxes, and the most steps to one.
+type Laid = (Vec<[u8; ENTRY_BYTES]>, Vec<(usize, Box3)>, u8);
+
+/// The entries of the partition: nodes as they stand, and leaves to be filled.
+pub(super) fn entries(domain: &Domain, choices: &[Choice]) -> Option<Laid> {
     let mut entries = vec![[0; ENTRY_BYTES]; choices.len()];
     let mut leaves = Vec::new();
     let mut steps = 0;

@@ -175,7 +175,7 @@ fn search_by_entries(
         Ok(Asked::Far(far)) => return far.closest_point(tree, point),
         Err(refused) => return Err(*refused),
     };
-    let mut work = Work::default();
+    let (mut work, mut known) = (Work::default(), known);
     // A limit of steps counts what this search opens, so it goes in the order of all targets.
     #[cfg(not(meshsweep_wide))]
     let mut waits = SOFT_FLOAT
@@ -207,9 +207,13 @@ fn search_by_entries(
         let is_known = true;
         #[cfg(not(meshsweep_wide))]
         let is_known = !waits || visitor.look_at_waiting().ok_or(QueryError::Unchecked)?;
-        if is_known {
+        // A triangle may be computed farther than an upper end that is proved: then none of them is
+        // within it, and the search begins anew without it.
+        let is_missed = known.is_some() && visitor.best.node == u32::MAX;
+        if is_known && !is_missed {
             return visitor.answer(descent, work, hint);
         }
+        known = None;
         #[cfg(not(meshsweep_wide))]
         {
             waits = false;

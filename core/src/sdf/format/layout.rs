@@ -70,7 +70,7 @@ pub mod tree {
     pub const MOST_VALUE: u32 = 1 << 20;
 
     /// How much a query's value may be below and above the leaf's function, in 2^-10 of a unit: of a
-    /// leaf with this curvature, this least level, and the other two levels so much greater.
+    /// leaf with this curvature and this least level. All three ways count as the longest one.
     ///
     /// A square of n whole steps of 2^cut stands for one of less than (n + 1)², n below 2^11, or along
     /// the gradient below 2^13. The last shifts lose less than 1.6 units.
@@ -82,7 +82,7 @@ pub mod tree {
         let along = 2 * 3 * most + 1;
         let bend = curvature.unsigned_abs();
         let part = |squares: u32| (bend * squares).div_ceil(1 << (16 - level - 2 * cut - 5));
-        // 32 times 33 is above 1024 · 1057 / 2^15 · 32.
+        // 34 is above 1024 · 1057 / 2^15 = 33.03.
         let in_units = |squares: u32| part(squares) * 34 / 32 + 1;
         [in_units(ways + along) + 36 + 1664, in_units(ways + along)]
     }

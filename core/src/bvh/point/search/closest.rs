@@ -148,17 +148,12 @@ impl<'a, N: NearestOfLeaf> Closest<'a, N> {
     }
 
     /// Begins with an interval of the distance to the input mesh, input units, that another
-    /// structure proved. The nearest triangle is computed no farther than the limit, so the limit
-    /// may stand for the distance of a triangle, as in [`bound_by`](Self::bound_by).
+    /// structure proved. The limit stands for the distance of a triangle, as in
+    /// [`bound_by`](Self::bound_by). The caller begins anew if no triangle is computed so near.
     #[inline(always)]
     pub(crate) fn bound_by_interval(&mut self, known: &Interval) {
         self.known_lower = known.lower;
         let nearest = limit_within(self.query, known.upper);
-        #[cfg(not(meshsweep_wide))]
-        if SOFT_FLOAT && self.waits {
-            // Integers have limits of their own.
-            return;
-        }
         if Real(nearest) < Real(EVERYTHING_SQ) {
             self.beyond.distance_sq = self.query.limit(nearest);
             self.limit = self.query.key_limit(self.beyond.distance_sq);
