@@ -2,6 +2,7 @@
 
 use crate::error::{BuildError, of_build};
 use crate::model::Model;
+use crate::pool::on_all_cores_until_stopped;
 use meshsweep::Builder;
 use meshsweep::builder::{Built, For, SdfKind, Stage};
 use meshsweep::mesh::{RawMesh, Unit};
@@ -11,6 +12,7 @@ use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Options of a build; `None` is the default.
 #[derive(Debug, Default, FromPyObject)]
@@ -100,9 +102,12 @@ impl Options {
         progress: Option<Py<PyAny>>,
         run: impl FnOnce(Builder<'_>) -> Result<Built, meshsweep::BuildError> + Send,
     ) -> PyResult<Model> {
-        let mut raised = None;
-        let built = py.detach(|| {
+        let (mut raised, stop) = (None, AtomicBool::new(false));
+        let work = || {
             let told = |stage, part| {
+                if stop.load(Ordering::Relaxed) {
+                    return ControlFlow::Break(());
+                }
                 let told = Python::attach(|py| {
                     py.check_signals()?;
                     let tell = |to: &Py<PyAny>| to.call1(py, (stage_name(stage), part)).map(drop);
@@ -117,7 +122,8 @@ impl Options {
                 }
             };
             self.builder().map(|builder| run(builder.on_progress(told)))
-        })?;
+        };
+        let built = py.detach(|| on_all_cores_until_stopped(&stop, work))??;
         match (raised, built) {
             (Some(error), Err(_)) => Err(error),
             (_, built) => Model::built(built.map_err(|error| of_build(&error))?),

@@ -5,6 +5,7 @@ mod build;
 mod error;
 mod model;
 mod pairs;
+mod pool;
 mod record;
 mod rows;
 

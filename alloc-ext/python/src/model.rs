@@ -1,10 +1,10 @@
 //! An opened blob, and its questions about points and segments.
 
-use crate::error::{MeshsweepError, missing, of_open, of_query};
+use crate::error::{MeshsweepError, QueryError, missing, of_open};
 use crate::record::{Put, ended};
-use crate::rows::{BLOCK, Records, Rows, ask, ask_many, rows};
+use crate::rows::{Lists, Records, Rows, ask, ask_many, in_blocks, rows};
 use meshsweep::builder::Built;
-use meshsweep::bvh::{FastBvh, closest_points_until_refused};
+use meshsweep::bvh::{BATCH, FastBvh, closest_points_until_refused};
 use meshsweep::distances::{Closest, Distances, Element, has_sides, signed_distance};
 use meshsweep::hull::{enclosing_input, mesh_of, sticks_out_note};
 use meshsweep::mesh::Mesh;
@@ -73,6 +73,21 @@ impl Model {
         self.opened.borrow_dependent()
     }
 
+    /// The box of what is stored, and how far the input may be beside that.
+    fn stored_bounds(&self) -> Option<([[f32; 3]; 2], f32)> {
+        let of_tree = |tree: &Bvh<'_>| (tree.bounds(), tree.surface_error());
+        let of_distances = self.distances().ok().map(|structure| match &structure {
+            Distances::Hull(hull) => (hull.bounds(), hull.surface_error()),
+            Distances::Curve(curve) => (curve.bounds(), curve.surface_error()),
+            Distances::Tight(hull) => of_tree(hull.bvh()),
+            Distances::TreeWithField(both) => of_tree(both.tree()),
+            Distances::Tree(tree) => of_tree(tree),
+        });
+        let of_tree = || self.blob().bvh().ok().as_ref().map(of_tree);
+        let of_field = || self.blob().sdf().ok().map(|field| (field.bounds(), f32::MIN_POSITIVE));
+        of_distances.or_else(of_tree).or_else(of_field)
+    }
+
     /// The box tree, built for this word.
     pub fn tree(&self, word: &'static str) -> PyResult<FastBvh<'_>> {
         let serves = |tree: &Bvh<'_>| match word {
@@ -98,6 +113,21 @@ impl Model {
             .or_else(|| tight().filter(|hull| hull.bvh().serves_distances()).map(Distances::Tight));
         distances.ok_or_else(|| missing("structure that knows distances", "closest"))
     }
+}
+
+/// The box, rounded to nearest, with so much around it: rounded outward.
+fn grown(bounds: [[f32; 3]; 2], error: f32) -> [[f32; 3]; 2] {
+    if error == 0.0 {
+        // The vertices are in f32, and rounding to nearest keeps their order with the box.
+        return bounds;
+    }
+    // The sum in f64, and its rounding to f32, are off by less than one step.
+    let sum = |x: f32, error: f32| (f64::from(x) + f64::from(error)) as f32;
+    let [low, high] = bounds;
+    [
+        low.map(|x| sum(x.next_down(), -error).next_down()),
+        high.map(|x| sum(x.next_up(), error).next_up()),
+    ]
 }
 
 fn put_closest(mut put: Put<'_>, found: &Closest) {
@@ -151,10 +181,9 @@ impl Model {
         let words: Vec<&str> = words.iter().filter(|word| word.1).map(|word| word.0).collect();
         facts.set_item("serves", words)?;
         facts.set_item("is_curve", blob.curve().is_ok())?;
-        let bounds = self.distances().map(|structure| structure.bounds()).ok();
-        let bounds = bounds.or_else(|| tree.as_ref().map(|tree| tree.bounds()));
-        let bounds = bounds.or_else(|| blob.sdf().ok().map(|field| field.bounds()));
-        facts.set_item("bounds", bounds)?;
+        let stored = self.stored_bounds();
+        facts.set_item("stored_bounds", stored.map(|(bounds, _)| bounds))?;
+        facts.set_item("bounds", stored.map(|(bounds, error)| grown(bounds, error)))?;
         facts.set_item("is_closed", tree.as_ref().map(Bvh::is_closed))?;
         facts.set_item("has_sides", tree.as_ref().map(has_sides))?;
         facts.set_item("surface_error", tree.as_ref().map(Bvh::surface_error))?;
@@ -181,35 +210,37 @@ impl Model {
         };
         let rows = rows::<3>(&points)?;
         let mut records = vec![0; rows.len() * size];
-        let blocks = rows.chunks(BLOCK).zip(records.chunks_mut(BLOCK * size));
-        for (block, (rows, records)) in blocks.enumerate() {
-            let refused = py.detach(|| {
-                let (found, refused) = closest_points_until_refused(&tree, rows, &budget);
-                for (found, record) in found.into_iter().zip(records.chunks_mut(size)) {
-                    put_closest(Put::new(record), &found.into());
-                }
-                refused
-            });
-            if let Some(refused) = refused {
-                return Err(of_query(Some(block * BLOCK + refused.index), refused.error));
+        // Blocks of whole batches: then the work depends on no time.
+        in_blocks(py, rows.len(), BATCH, |block| {
+            let records = &mut records[block.start * size..];
+            let begin = block.start;
+            let (found, refused) = closest_points_until_refused(&tree, &rows[block], &budget);
+            for (found, record) in found.into_iter().zip(records.chunks_mut(size)) {
+                put_closest(Put::new(record), &found.into());
             }
-            py.check_signals()?;
-        }
+            refused.map_or(Ok(()), |refused| Err((begin + refused.index, refused.error)))
+        })?;
         Ok(PyArray1::from_vec(py, records))
     }
 
+    /// With the side of the nearest triangle, else that of the winding number; `by_nearest_alone`
+    /// leaves that out.
     fn signed_distance<'py>(
         &self,
         py: Python<'py>,
         points: Rows<'py>,
         steps: Option<u32>,
+        by_nearest_alone: bool,
         size: usize,
     ) -> PyResult<Records<'py>> {
         let (tree, budget) = (self.tree("closest")?, budget(0.0, 0.0, steps));
         ask(py, &points, size, || {
             let mut scratch = scratch(tree.scratch_entries());
             move |[x, y, z], mut put| {
-                let found = signed_distance(&tree, [x, y, z], budget, &mut scratch)?;
+                let found = match by_nearest_alone {
+                    true => tree.signed_distance([x, y, z], budget, &mut scratch),
+                    false => signed_distance(&tree, [x, y, z], budget, &mut scratch),
+                }?;
                 let near = found.closest;
                 put.interval(found.distance).side(found.side).floats(&near.point);
                 put.number(near.triangle).ended(near.ended).count(near.work.total());
@@ -265,14 +296,13 @@ impl Model {
         })
     }
 
-    #[allow(clippy::type_complexity, reason = "two arrays")]
     fn all_within<'py>(
         &self,
         py: Python<'py>,
         points: Rows<'py>,
         distance: f32,
         size: usize,
-    ) -> PyResult<(Bound<'py, PyArray1<u64>>, Records<'py>)> {
+    ) -> PyResult<Lists<'py>> {
         let tree = self.tree("closest")?;
         ask_many(py, &points, size, || {
             let mut scratch = scratch(tree.scratch_entries());
@@ -294,7 +324,8 @@ impl Model {
                     put.interval(near.distance()).floats(&near.point());
                     put.number(Some(near.triangle())).byte(u8::from(index < all.certain));
                 }
-                Ok(())
+                // With memory for all and without a limit of steps none is missing.
+                Ok(true)
             }
         })
     }
@@ -327,7 +358,7 @@ impl Model {
         steps: Option<u32>,
         size: usize,
     ) -> PyResult<Records<'py>> {
-        let (facing, budget) = (facing_of(facing), budget(0.0, 0.0, steps));
+        let (facing, budget) = (facing_of(facing)?, budget(0.0, 0.0, steps));
         let tree = self.tree("segment")?;
         ask(py, &rows, size, || {
             let mut scratch = scratch(tree.scratch_entries());
@@ -356,7 +387,6 @@ impl Model {
         })
     }
 
-    #[allow(clippy::type_complexity, reason = "two arrays")]
     fn all_hits<'py>(
         &self,
         py: Python<'py>,
@@ -364,8 +394,8 @@ impl Model {
         is_ray: bool,
         facing: u8,
         size: usize,
-    ) -> PyResult<(Bound<'py, PyArray1<u64>>, Records<'py>)> {
-        let (facing, tree) = (facing_of(facing), self.tree("segment")?);
+    ) -> PyResult<Lists<'py>> {
+        let (facing, tree) = (facing_of(facing)?, self.tree("segment")?);
         ask_many(py, &rows, size, || {
             let mut scratch = scratch(tree.scratch_entries());
             let mut room = vec![TriangleHit::EMPTY; ROOM];
@@ -387,7 +417,7 @@ impl Model {
                     put.byte(if *is_certain { 1 } else { 2 }).floats(&[hit.t]);
                     put.floats(&hit.point).number(hit.triangle);
                 }
-                Ok(())
+                Ok(all.is_complete)
             }
         })
     }
@@ -443,10 +473,11 @@ impl Model {
     }
 }
 
-fn facing_of(code: u8) -> Facing {
+fn facing_of(code: u8) -> PyResult<Facing> {
     match code {
-        1 => Facing::Front,
-        2 => Facing::Back,
-        _ => Facing::Both,
+        0 => Ok(Facing::Both),
+        1 => Ok(Facing::Front),
+        2 => Ok(Facing::Back),
+        _ => Err(QueryError::new_err(format!("facing: {code} is none of 0, 1 and 2"))),
     }
 }

@@ -1,5 +1,7 @@
 """Every interval contains the truth, and no verdict is wrong."""
 
+from fractions import Fraction
+
 import meshsweep
 import numpy as np
 import pytest
@@ -74,6 +76,12 @@ def test_all_within_leaves_out_no_triangle_and_nearest_orders_them():
         assert set(np.flatnonzero(row <= 0.6 - 1e-4)) <= certain
         assert certain <= set(np.flatnonzero(row <= 0.6 + 1e-12))
         assert set(np.flatnonzero(row <= 0.6)) <= set(found.triangle)
+    # Distances that single precision rounds down.
+    for row, point in zip(truth[:20], points, strict=False):
+        distance = row.min() + 1e-9
+        (found,) = part.all_within(point, distance)
+        assert set(np.flatnonzero(row <= distance - 1e-12)) <= set(found.triangle)
+        assert (found.upper[found.is_certain].astype(np.float64) <= distance).all()
     near = part.nearest(points, 5)
     assert near.shape == (60, 5)
     wanted = np.sort(truth, axis=1)[:, :5]
@@ -94,7 +102,7 @@ def test_segments_through_the_middle_hit_twice_and_those_beside_are_clear():
     assert off.max() < 1e-4
     # Where a way passes an edge only the far side may be proved to be hit.
     assert (hit.t_upper < 0.5).mean() > 0.95 and (hit.t_lower > 0.2).all()
-    assert all(len(found) >= 2 for found in part.all_hits(-2 * way, 2 * way))
+    assert all(len(found) >= 2 for found in part.all_hits(-2 * way, 2 * way).hits)
     beside = np.cross(way, [0.3, 0.5, 0.7]).astype(np.float32)
     beside *= 1.001 / np.linalg.norm(beside, axis=1)[:, None].astype(np.float32)
     clear = part.first_hit(beside - way, beside + way)
@@ -102,6 +110,126 @@ def test_segments_through_the_middle_hit_twice_and_those_beside_are_clear():
     rays = part.first_hit_of_ray(2 * way, way)
     assert (rays.verdict == Verdict.NO).all()
     assert (part.first_hit_of_ray(2 * way, -way).verdict != Verdict.NO).all()
+
+
+def orientation(a, b, c, d):
+    """The sign of the volume of a tetrahedron, exact."""
+    a, b, c, d = ([Fraction(float(x)) for x in p] for p in (a, b, c, d))
+    u, v, w = ([x - y for x, y in zip(p, d, strict=True)] for p in (a, b, c))
+    volume = (
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+        - u[1] * (v[0] * w[2] - v[2] * w[0])
+        + u[2] * (v[0] * w[1] - v[1] * w[0])
+    )
+    return (volume > 0) - (volume < 0)
+
+
+def test_a_list_without_a_triangle_that_is_hit_is_not_complete():
+    vertices, triangles = sphere(30, 41)
+    part = meshsweep.build((vertices, triangles))
+    assert part.surface_error > 0
+    rng = np.random.default_rng(7)
+    chosen = rng.integers(0, len(triangles), 600)
+    corners = vertices[triangles[chosen]].astype(np.float64)
+    middle = corners.mean(axis=1)
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    depth = rng.uniform(-0.5, 1.5, (600, 1)) * part.surface_error
+    starts = (middle + 0.3 * normal).astype(np.float32)
+    ends = (middle - depth * normal).astype(np.float32)
+    is_hit = np.zeros(600, bool)
+    for row, (start, end, (a, b, c)) in enumerate(
+        zip(starts, ends, corners.astype(np.float32), strict=True)
+    ):
+        sides = orientation(a, b, c, start), orientation(a, b, c, end)
+        around = {orientation(start, end, *edge) for edge in [(a, b), (b, c), (c, a)]}
+        is_hit[row] = sides[0] * sides[1] <= 0 and not {-1, 1} <= around
+    for found in [
+        part.all_hits(starts, ends),
+        part.all_hits_of_ray(ends, (starts - ends) * np.float32(10)),
+    ]:
+        assert found.is_complete.shape == (600,) and found.is_complete.dtype == bool
+    found = part.all_hits(starts, ends)
+    listed = np.array([t in h.triangle for t, h in zip(chosen, found.hits, strict=True)])
+    assert (listed | ~found.is_complete)[is_hit].all()
+    # The surface error leaves some of them out, or the test would show nothing.
+    assert is_hit.mean() > 0.5 and (is_hit & ~listed).any()
+    assert (part.first_hit(starts, ends).verdict[is_hit] != Verdict.NO).all()
+    far = part.all_hits(starts, starts + np.float32(0.1))
+    assert far.is_complete.all() and all(len(hits) == 0 for hits in far.hits)
+
+
+def test_a_side_by_a_winding_number_is_that_of_the_point_as_given():
+    corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], np.float32)
+    faces = [[0, 2, 1], [1, 2, 3], [0, 1, 4], [1, 5, 4], [1, 3, 5], [3, 7, 5]]
+    faces += [[3, 2, 7], [2, 6, 7], [2, 0, 6], [0, 4, 6]]
+    lid = [[4, 5, 6], [5, 7, 6]]
+    box = meshsweep.build((corners, faces), "closest,winding")
+    closed = meshsweep.build((corners, faces + lid), "closest,winding")
+    assert not box.is_closed and closed.is_closed
+
+    def winding(point):
+        a, b, c = ((corners[k].astype(np.float64) - point) for k in np.array(faces).T)
+        la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
+        dot = lambda u, v: np.einsum("ij,ij->i", u, v)
+        over = dot(a, np.cross(b, c))
+        under = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb
+        return np.arctan2(over, under).sum() / (2 * np.pi)
+
+    points = []
+    for x, y in np.random.default_rng(8).uniform(0.1, 0.9, (50, 2)):
+        low, high = 0.5, 1.5
+        for _ in range(45):
+            middle = (low + high) / 2
+            low, high = (middle, high) if winding([x, y, middle]) > 0.5 else (low, middle)
+        points += [[x, y, low - 1e-9], [x, y, high + 1e-9]]
+    points = np.array(points)
+    found, truth = box.signed_distance(points), distances(points, corners, np.array(faces))
+    nearest = truth.min(axis=1)
+    assert (found.side == Side.UNDECIDED).all()
+    assert (found.lower <= -nearest).all() and (nearest <= found.upper).all()
+    within = np.array([[0.5, 0.5, 0.25], [0.5, 0.5, 0.1], [0.5, 0.5, 5]])
+    assert box.signed_distance(within).side.tolist() == [-1, 0, 1]
+    assert box.signed_distance(within.astype(np.float32)).side.tolist() == [-1, -1, 1]
+    assert closed.signed_distance(within).side.tolist() == [-1, -1, 1]
+
+
+@pytest.mark.parametrize("offset", [0.0, 1e6])
+@pytest.mark.parametrize("words", ["closest", "tight", "hull", "winding", "sdf"])
+def test_the_bounds_hold_every_vertex_of_the_input(offset, words):
+    vertices = sphere(20, 31)[0].astype(np.float64) * [2.337, 4.1, 1.973] + [0.1, 0.7, -3.3]
+    part = meshsweep.build((vertices + offset, sphere(20, 31)[1]), words)
+    low, high = part.bounds
+    assert (low <= vertices + offset).all() and (vertices + offset <= high).all()
+    # Hulls lie around the part, and a field has a margin.
+    factor = {"sdf": 2.0, "tight": 1.1}.get(words, 1.01)
+    assert (high - low < factor * np.ptp(vertices, axis=0) + offset * 1e-6).all()
+
+
+def test_pairs_are_within_a_distance_that_single_precision_does_not_hold():
+    part = meshsweep.build(sphere(), vertex_bits=32)
+    pose = np.eye(4)
+    pose[2, 3] = 3.0
+    for distance, wrong in [(1 - 1e-12, Verdict.YES), (1 + 1e-12, Verdict.NO)]:
+        (found,) = part.within_of(part, distance, pose)
+        assert found.verdict != wrong
+    assert part.within_of(part, 1.1, pose).verdict == [Verdict.YES]
+    assert part.within_of(part, np.float32(0.9), pose).verdict == [Verdict.NO]
+
+
+def test_no_verdict_about_a_rounded_distance_is_wrong_even_if_each_one_asked_is_decided():
+    truths = 1 + np.linspace(-5e-7, 5e-7, 101)
+
+    def ask(limits):
+        found = np.recarray(len(truths), meshsweep._records.MEETS)
+        found.verdict = np.where(truths <= limits, Verdict.YES, Verdict.NO)
+        return found
+
+    for distance in 1 + np.linspace(-1e-7, 1e-7, 41):
+        found = meshsweep._asked(ask, distance, np.zeros(1))
+        assert (truths[found.verdict == Verdict.NO] > distance).all()
+        assert (truths[found.verdict == Verdict.YES] <= distance).all()
+        assert (found.verdict == Verdict.NO).any() and (found.verdict == Verdict.YES).any()
 
 
 def test_pairs_are_as_far_apart_as_their_pose_puts_them():

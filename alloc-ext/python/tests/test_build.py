@@ -1,7 +1,12 @@
 """What builds, what is refused, and with which words."""
 
+import os
 import pickle
+import signal
+import subprocess
+import sys
 import threading
+import time
 
 import meshsweep
 import numpy as np
@@ -83,6 +88,134 @@ def test_questions_are_refused_with_the_row_and_the_word_to_build_with():
     assert len(part.closest_point(np.zeros((0, 3)))) == 0
 
 
+@pytest.mark.parametrize(
+    "ask, words",
+    [
+        (lambda part: part.closest_point(np.ma.zeros((2, 3))), "masked"),
+        (lambda part: part.closest_point([["1", "2", "3"]]), "real numbers"),
+        (lambda part: part.closest_point(np.zeros((2, 3), object)), "real numbers"),
+        (lambda part: part.closest_point(np.zeros((2, 3), complex)), "real numbers"),
+        (lambda part: part.closest_point(np.zeros((2, 3), bool)), "real numbers"),
+        (lambda part: part.closest_point([[1, 2, 3], [1]]), "points"),
+        (lambda part: part.within([[0, 0, 0], [np.nan, 0, 0]], 0.1), "row 1: .*(finite|NaN)"),
+        (lambda part: part.within([[0, 0, 0]], "far"), "one number"),
+        (lambda part: part.within([[0, 0, 0]], [1, 2]), "one number"),
+        (lambda part: part.within([[0, 0, 0]], 1e39), "single precision"),
+        (lambda part: part.first_hit(np.zeros((2, 3)), np.zeros((3, 3))), "2 starts for 3 ends"),
+        (lambda part: part.first_hit([[0, 0, 0]], [[1, 0, 0]], facing=7), "Facing"),
+        (lambda part: part.distance_to(np.zeros((2, 3))), "another Model is wanted"),
+        (lambda part: part.overlap(part, np.eye(4)[:, :3]), "shape"),
+        (lambda part: part.overlap(part, (np.eye(4) + np.eye(4, k=3)).T), "transposed"),
+    ],
+)
+def test_a_question_that_is_refused_is_told_why(ask, words):
+    with pytest.raises(meshsweep.QueryError, match=words):
+        ask(meshsweep.build(sphere()))
+
+
+def test_arguments_of_other_kinds_are_told_what_is_wanted():
+    for options, words in [
+        ({"frames": "a.ply"}, r"list of files is wanted, as \['a.ply'\]"),
+        ({"for_": "tight", "tight_faces": 200}, r"list of numbers is wanted, as \[200\]"),
+    ]:
+        with pytest.raises(meshsweep.BuildError, match=words):
+            meshsweep.build(sphere(), **options)
+    with pytest.raises(meshsweep.BlobError, match=r"use meshsweep\.load"):
+        meshsweep.Model("part.msw")
+    with pytest.raises(meshsweep.BlobError, match="bytes are wanted"):
+        meshsweep.Model(7)
+    trimesh = pytest.importorskip("trimesh")
+    scene = trimesh.Scene([trimesh.Trimesh(*sphere())])
+    with pytest.raises(meshsweep.BuildError, match=r"to_geometry"):
+        meshsweep.build(scene)
+    with pytest.raises(meshsweep.BuildError, match="masked"):
+        meshsweep.build((np.ma.array(sphere()[0]), sphere()[1]))
+
+
+def test_rows_of_every_layout_give_the_same_answers():
+    part = meshsweep.build(sphere())
+    points = np.random.default_rng(3).uniform(-2, 2, (20, 3)).astype(np.float32)
+    wanted = part.closest_point(points)
+    frozen = points.copy()
+    frozen.flags.writeable = False
+    unaligned = np.frombuffer(b"x" + points.tobytes(), np.float32, offset=1).reshape(20, 3)
+    doubled = np.repeat(points, 2, axis=0)[::2]
+    for rows in [frozen, unaligned, doubled, np.asfortranarray(points), points.astype(">f4")]:
+        assert part.closest_point(rows).tobytes() == wanted.tobytes()
+    again = part.closest_point(wanted.point)
+    for row in range(20):
+        (found,) = part.closest_point(wanted[row].point)
+        assert found.lower == again[row].lower
+    for rows in [np.array([[1, 2, 3]]), np.array([[1, 2, 3]], np.uint8), [[1, 2, 3]]]:
+        assert part.closest_point(rows).lower == part.closest_point(np.float32([[1, 2, 3]])).lower
+    (found,) = part.closest_point(np.array([[2**62 + 1, 0, 0]]))
+    assert found.lower <= 2**62 <= found.upper
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
+def test_the_child_of_a_fork_answers_builds_and_is_interrupted():
+    script = """
+import os, signal, sys
+import meshsweep, numpy as np
+sys.path.insert(0, "tests")
+from conftest import sphere
+
+part = meshsweep.build(sphere(), "closest,tight")
+points = np.random.default_rng(1).uniform(-2, 2, (100_000, 3)).astype(np.float32)
+wanted = part.closest_point(points).tobytes(), part.within(points, 0.5).tobytes()
+
+def check():
+    assert (part.closest_point(points).tobytes(), part.within(points, 0.5).tobytes()) == wanted
+    assert bytes(meshsweep.build(sphere(), "closest,tight")) == bytes(part)
+
+def in_child(work):
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            work()
+            code = 0
+        finally:
+            os._exit(code)
+    assert os.waitpid(child, 0)[1] == 0
+
+def ended(*_):
+    raise TimeoutError
+
+def stopped():
+    signal.signal(signal.SIGALRM, ended)
+    signal.setitimer(signal.ITIMER_REAL, 0.2)
+    try:
+        meshsweep.build(sphere(300, 400), "tight,hull", effort=4)
+    except TimeoutError:
+        return
+    raise AssertionError
+
+in_child(check)
+in_child(lambda: (check(), in_child(check), check()))
+in_child(stopped)
+check()
+"""
+    run = [sys.executable, "-W", "ignore", "-c", script]
+    subprocess.run(run, check=True, timeout=100)
+
+
+def test_ctrl_c_ends_a_question_soon():
+    part = meshsweep.build(sphere(60, 90), "winding")
+    points = np.random.default_rng(4).uniform(-2, 2, (8_000_000, 3)).astype(np.float32)
+    sent = []
+
+    def send():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.3, send)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        part.winding_number(points)
+    assert time.perf_counter() - sent[0] < 2
+
+
 def test_damaged_bytes_are_refused():
     part = bytearray(bytes(meshsweep.build(sphere())))
     part[100] ^= 1
@@ -122,12 +255,15 @@ def test_curves_answer_with_segments(tmp_path):
     (near,) = path.closest_point(np.array([[2, 0.5, 0]], np.float32))
     assert near.segment == 1 and near.polyline == 0
     assert near.lower <= 1 <= near.upper
+    moved = np.array([[2, 0.5 + 1e-9, 0], [0.5, 1e-40, 0]])
+    given, rounded = path.closest_point(moved), path.closest_point(moved.astype(np.float32))
+    off = np.linalg.norm(moved - moved.astype(np.float32), axis=1)
+    assert (rounded.safe_motion > 0).any() and (given.safe_motion >= 0).all()
+    assert (given.safe_motion <= np.maximum(rounded.safe_motion - off, 0)).all()
+    assert (given.safe_motion >= rounded.safe_motion - 1e-6).all()
 
 
 def test_the_tour_shows_a_part(fixtures):
-    import subprocess
-    import sys
-
     file = str(fixtures / "bracket.stl")
     run = [sys.executable, "-m", "meshsweep", file]
     shown = subprocess.run(run, capture_output=True, text=True, check=True).stdout

@@ -13,8 +13,11 @@ computes.
 
 **Rounding.** Questions are asked in single precision. Points in double precision are rounded first,
 and intervals of distances, sides and verdicts about one distance are widened by that, so that they
-hold for the points as given. Segments, rays and poses are rounded, and the answer is about the
-rounded one: give float32 to see none.
+hold for the points as given. The side by a winding number may change by any motion, so
+`signed_distance` does not use it for points that were moved. Segments, rays and poses are rounded,
+and the answer is about the rounded one: give float32 to see none.
+
+**Processes.** A model can be pickled. The child of a fork has threads of its own.
 """
 
 from __future__ import annotations
@@ -22,7 +25,7 @@ from __future__ import annotations
 import itertools
 import os
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple, SupportsFloat, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,6 +37,7 @@ from ._records import Ended, Facing, Side, Verdict, records
 __version__ = "0.1.0"
 
 __all__ = [
+    "AllHits",
     "BlobError",
     "BuildError",
     "Ended",
@@ -72,6 +76,15 @@ class TightHull(NamedTuple):
     """No point of the hull is farther from the mesh."""
 
 
+class AllHits(NamedTuple):
+    """The triangles that each of n segments or rays meets."""
+
+    hits: list[Records]
+    """A list of n records."""
+    is_complete: NDArray[np.bool_]
+    """Shape (n,): whether it is proved that no other triangle is hit."""
+
+
 def build(
     mesh: str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Any,
     for_: str | Iterable[str] = (),
@@ -107,6 +120,10 @@ def build(
     Raises `BuildError`, which names the defect and its place, if the mesh or an option is refused.
     What was repaired is in `Model.report`.
     """
+    if isinstance(frames, (str, os.PathLike)):
+        raise BuildError(f"frames: a list of files is wanted, as [{os.fspath(frames)!r}]")
+    if isinstance(tight_faces, str) or not isinstance(tight_faces, Iterable | None):
+        raise BuildError(f"tight_faces: a list of numbers is wanted, as [{tight_faces}]")
     words = for_.split(",") if isinstance(for_, str) else list(for_)
     options = {
         "for_": [word.strip() for word in words if word.strip()],
@@ -143,8 +160,12 @@ def load(file: str | os.PathLike[str]) -> Model:
 class Model:
     """An opened blob, which answers questions. Safe to share between threads, and to pickle."""
 
-    def __init__(self, blob: bytes | _meshsweep.Model) -> None:
+    def __init__(self, blob: bytes | bytearray | memoryview | _meshsweep.Model) -> None:
         """Opens the bytes of a blob. Every byte is checked: raises `BlobError`."""
+        if isinstance(blob, (str, os.PathLike)):
+            raise BlobError(f"bytes are wanted, not {blob!r}: use meshsweep.load for a file")
+        if not isinstance(blob, (bytes, bytearray, memoryview, _meshsweep.Model)):
+            raise BlobError(f"bytes are wanted, not {type(blob).__name__}")
         self._model = blob if isinstance(blob, _meshsweep.Model) else _meshsweep.Model(bytes(blob))
         self._facts = self._model.facts()
 
@@ -173,10 +194,16 @@ class Model:
         return list(self._facts["serves"])
 
     @property
-    def bounds(self) -> NDArray[np.float32] | None:
-        """Shape (2, 3): a box that holds the input mesh."""
+    def bounds(self) -> NDArray[np.float32]:
+        """Shape (2, 3): a box that holds the input mesh, its vertices included.
+
+        It is the box of what is stored, `surface_error` larger, and rounded outward; of a blob with a
+        field alone the field's box. Raises `NotServedError` if the blob has nothing that knows it.
+        """
         bounds = self._facts["bounds"]
-        return None if bounds is None else np.array(bounds, np.float32)
+        if bounds is None:
+            raise NotServedError('the blob knows no bounds: build it with for_="closest"')
+        return np.array(bounds, np.float32)
 
     @property
     def is_closed(self) -> bool | None:
@@ -194,21 +221,27 @@ class Model:
         return self._facts["surface_error"]
 
     def closest_point(
-        self, points: ArrayLike, *, rel: float = 0.0, abs: float = 0.0, steps: int | None = None
+        self,
+        points: ArrayLike,
+        *,
+        rel: SupportsFloat = 0.0,
+        abs: SupportsFloat = 0.0,
+        steps: int | None = None,
     ) -> Records:
         """The distance of each point from the surface, and a point of the surface.
 
         Fields: `lower` and `upper`, which contain the distance to the input mesh; `point`, of the
         surface and at most `upper` away from the rounded query; `triangle`, its number in the
         input file, or -1; `ended`; `work`. Curves have `polyline`, `segment` and `safe_motion` in
-        place of `triangle`.
+        place of `triangle`: of every point that is less than `safe_motion` away from the one given,
+        the segment is the closest one. 0 is no statement.
 
         A search ends once the interval is narrower than `rel` of the distance or than `abs`, or
         after so many `steps`: the interval is wider then, and holds.
         """
         dtype = _records.CLOSEST_ON_CURVE if self._facts["is_curve"] else _records.CLOSEST
         rows, moved = _points(points)
-        found = self._model.closest_point(rows, (rel, abs, steps), dtype.itemsize)
+        found = self._model.closest_point(rows, (float(rel), float(abs), steps), dtype.itemsize)
         return _widened(records(found, dtype), moved)
 
     def signed_distance(self, points: ArrayLike, *, steps: int | None = None) -> Records:
@@ -219,12 +252,28 @@ class Model:
         Fields: `lower`, `upper`, `side` (a `Side`), and those of `closest_point`. An undecided side
         has an interval with both signs. The side is by the nearest triangle of a closed mesh; where
         that is undecided, and of open meshes, by the winding number, if `for_` names "winding".
+
+        The winding number of an open mesh passes 1/2 away from the surface. So it tells no side of
+        a point that single precision does not hold: of an open mesh such points are undecided. Give
+        float32 to have their sides.
         """
         rows, moved = _points(points)
-        found = self._model.signed_distance(rows, steps, _records.SIGNED.itemsize)
-        return _widened(records(found, _records.SIGNED), moved)
 
-    def within(self, points: ArrayLike, distance: float, *, steps: int | None = None) -> Records:
+        def ask(rows: NDArray[np.float32], by_nearest_alone: bool) -> Records:
+            size = _records.SIGNED.itemsize
+            found = self._model.signed_distance(rows, steps, by_nearest_alone, size)
+            return records(found, _records.SIGNED)
+
+        if moved is None:
+            return ask(rows, False)
+        found, is_held = ask(rows, True), moved == 0
+        if "winding" in self._facts["serves"] and np.any(is_held):
+            found[is_held] = ask(rows[is_held], False)
+        return _widened(found, moved)
+
+    def within(
+        self, points: ArrayLike, distance: SupportsFloat, *, steps: int | None = None
+    ) -> Records:
         """Whether the surface is at most `distance` from each point.
 
         Fields: `verdict` (a `Verdict`: 0 only where it is proved that nothing is so near);
@@ -232,25 +281,16 @@ class Model:
         inside a part nothing is near.
         """
         rows, moved = _points(points)
-        size = _records.WITHIN.itemsize
-        limits = np.full((len(rows), 1), _checked(distance), np.float32)
+        size, limit = _records.WITHIN.itemsize, _checked(distance)
 
         def ask(limits: NDArray[np.float32]) -> Records:
+            limits = np.broadcast_to(limits[:, None], (len(rows), 1))
             found = self._model.within(np.hstack([rows, limits]), steps, size)
             return records(found, _records.WITHIN)
 
-        if moved is None and float(np.float32(distance)) == distance:
-            return ask(limits)
-        # Farther than the distance and the rounding is farther; nearer than the distance less the
-        # rounding is nearer; the rest is undecided.
-        slack = np.zeros((len(rows), 1)) if moved is None else moved[:, None].astype(np.float64)
-        found = ask(_up(distance + slack))
-        near = ask(_down(np.maximum(distance - slack, 0.0)))
-        is_open = found.verdict == Verdict.YES
-        is_near = (near.verdict == Verdict.YES) & (distance >= slack[:, 0])
-        found.verdict[is_open & ~is_near] = Verdict.UNDECIDED
-        found.ended[is_open & ~is_near] = Ended.RESOLUTION
-        return found
+        if moved is None:
+            return _asked(ask, limit, np.zeros(1))
+        return _asked(ask, limit, moved.astype(np.float64))
 
     def nearest(self, points: ArrayLike, count: int) -> Records:
         """The `count` triangles nearest to each point, nearest first: shape (n, count).
@@ -266,19 +306,22 @@ class Model:
         each = found.reshape(len(rows), -1) if len(rows) else found.reshape(0, count)
         return _widened(cast(Records, each), moved)
 
-    def all_within(self, points: ArrayLike, distance: float) -> list[Records]:
+    def all_within(self, points: ArrayLike, distance: SupportsFloat) -> list[Records]:
         """All triangles that may be at most `distance` from each point: a list of n records.
 
         Fields: `lower`, `upper`, `point`, `triangle`, and `is_certain`: false of triangles that are
-        perhaps a little farther. No other triangle is so near. Points in double precision that
-        single precision does not hold are refused.
+        perhaps a little farther. Lists are complete, always: no other triangle is so near. Points
+        in double precision that single precision does not hold are refused.
         """
         rows, moved = _points(points)
         if moved is not None:
             raise QueryError("all_within: the points are not in single precision; round them first")
-        size = _records.ALL_WITHIN.itemsize
-        begins, found = self._model.all_within(rows, _checked(distance), size)
-        return _parts(begins, records(found, _records.ALL_WITHIN))
+        size, limit = _records.ALL_WITHIN.itemsize, _checked(distance)
+        (least,) = _up(np.array([limit])) if float(np.float32(limit)) < limit else [limit]
+        begins, raw, _ = self._model.all_within(rows, float(least), size)
+        found = records(raw, _records.ALL_WITHIN)
+        found.is_certain[:] = found.upper.astype(np.float64) <= limit
+        return _parts(begins, found)
 
     def winding_number(self, points: ArrayLike) -> Records:
         """How often the mesh encloses each point. Needs "winding" among the words of `for_`.
@@ -295,7 +338,7 @@ class Model:
         starts: ArrayLike,
         ends: ArrayLike,
         *,
-        facing: Facing = Facing.BOTH,
+        facing: Facing | int = Facing.BOTH,
         steps: int | None = None,
     ) -> Records:
         """The first point of each segment that lies on the surface.
@@ -312,41 +355,49 @@ class Model:
         origins: ArrayLike,
         directions: ArrayLike,
         *,
-        facing: Facing = Facing.BOTH,
+        facing: Facing | int = Facing.BOTH,
         steps: int | None = None,
     ) -> Records:
         """The same of rays without an end. The parameter counts lengths of the direction."""
         return self._first_hit(origins, directions, True, facing, steps)
 
     def _first_hit(
-        self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing, steps: int | None
+        self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing | int, steps: int | None
     ) -> Records:
         size, rows = _records.FIRST_HIT.itemsize, _pairs(a, b)
-        found = self._model.first_hit(rows, is_ray, int(facing), steps, size)
+        found = self._model.first_hit(rows, is_ray, _facing(facing), steps, size)
         return records(found, _records.FIRST_HIT)
 
     def all_hits(
-        self, starts: ArrayLike, ends: ArrayLike, *, facing: Facing = Facing.BOTH
-    ) -> list[Records]:
-        """All triangles that each segment meets, first ones first: a list of n records.
+        self, starts: ArrayLike, ends: ArrayLike, *, facing: Facing | int = Facing.BOTH
+    ) -> AllHits:
+        """All triangles that each segment meets, first ones first: lists of n records.
 
-        Fields: `verdict`, `YES` or `UNDECIDED`; `t`; `point`; `triangle`.
+        Fields: `verdict`, `YES` or `UNDECIDED`; `t`; `point`; `triangle`. No other triangle is hit
+        where `is_complete`. Elsewhere the segment passes so near to a triangle that what is stored
+        does not tell whether it hits: such a triangle may be missing. So an empty list is clear
+        only where `is_complete`; `first_hit` tells by its verdict.
         """
         return self._all_hits(starts, ends, False, facing)
 
     def all_hits_of_ray(
-        self, origins: ArrayLike, directions: ArrayLike, *, facing: Facing = Facing.BOTH
-    ) -> list[Records]:
+        self, origins: ArrayLike, directions: ArrayLike, *, facing: Facing | int = Facing.BOTH
+    ) -> AllHits:
         """The same of rays without an end. The parameter counts lengths of the direction."""
         return self._all_hits(origins, directions, True, facing)
 
-    def _all_hits(self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing) -> list[Records]:
+    def _all_hits(self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing | int) -> AllHits:
         size, rows = _records.ALL_HITS.itemsize, _pairs(a, b)
-        begins, found = self._model.all_hits(rows, is_ray, int(facing), size)
-        return _parts(begins, records(found, _records.ALL_HITS))
+        begins, found, is_complete = self._model.all_hits(rows, is_ray, _facing(facing), size)
+        return AllHits(_parts(begins, records(found, _records.ALL_HITS)), is_complete)
 
     def distance_to(
-        self, other: Model, poses: ArrayLike | None = None, *, rel: float = 0.0, abs: float = 0.0
+        self,
+        other: Model,
+        poses: ArrayLike | None = None,
+        *,
+        rel: SupportsFloat = 0.0,
+        abs: SupportsFloat = 0.0,
     ) -> Records:
         """The distance of this surface from that of another model, at poses of the other.
 
@@ -356,22 +407,30 @@ class Model:
         Fields: `lower` and `upper`; `points`, one of each surface in this frame; `triangles`;
         `ended`; `work`.
         """
-        size = _records.PAIR.itemsize
-        found = self._model.distance_to(other._model, _poses(poses), rel, abs, size)
+        size, second, rows = _records.PAIR.itemsize, _other(other), _poses(poses)
+        found = self._model.distance_to(second, rows, float(rel), float(abs), size)
         return records(found, _records.PAIR)
 
-    def within_of(self, other: Model, distance: float, poses: ArrayLike | None = None) -> Records:
+    def within_of(
+        self, other: Model, distance: SupportsFloat, poses: ArrayLike | None = None
+    ) -> Records:
         """Whether both surfaces are at most `distance` apart, at poses of the other.
 
         Fields: `verdict`; `triangles`, the witnesses of a `YES`, or -1; `ended`; `work`.
         """
-        size = _records.MEETS.itemsize
-        found = self._model.meets(other._model, _poses(poses), _checked(distance), size)
-        return records(found, _records.MEETS)
+        size, second, rows = _records.MEETS.itemsize, _other(other), _poses(poses)
+
+        def ask(limits: NDArray[np.float32]) -> Records:
+            (limit,) = limits
+            found = self._model.meets(second, rows, float(limit), size)
+            return records(found, _records.MEETS)
+
+        return _asked(ask, _checked(distance), np.zeros(1))
 
     def overlap(self, other: Model, poses: ArrayLike | None = None) -> Records:
         """Whether both surfaces meet, at poses of the other. Fields: those of `within_of`."""
-        found = self._model.meets(other._model, _poses(poses), None, _records.MEETS.itemsize)
+        size = _records.MEETS.itemsize
+        found = self._model.meets(_other(other), _poses(poses), None, size)
         return records(found, _records.MEETS)
 
     def field_distance(self, points: ArrayLike) -> Records:
@@ -395,14 +454,16 @@ class Model:
 
 def _arrays_of(mesh: Any) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
     """Vertices and triangles of whatever `build` takes."""
+    if hasattr(mesh, "to_geometry") and not hasattr(mesh, "faces"):
+        raise BuildError("a scene is no mesh: give scene.to_geometry()")
     pair = (mesh.vertices, mesh.faces) if hasattr(mesh, "faces") else mesh
     try:
         vertices, faces = pair
     except (TypeError, ValueError):
         text = "a mesh is a file, a pair of vertices and triangles, or has `vertices` and `faces`"
         raise BuildError(text) from None
-    vertices = np.ascontiguousarray(vertices, np.float64)
-    numbers = np.asarray(faces)
+    vertices = _numbers(vertices, "vertices", BuildError)
+    numbers = _numbers(faces, "triangles", BuildError)
     if vertices.ndim != 2 or vertices.shape[1] != 3:
         raise BuildError(f"vertices: shape (v, 3) is wanted, not {vertices.shape}")
     if numbers.ndim != 2 or numbers.shape[1] != 3:
@@ -411,11 +472,33 @@ def _arrays_of(mesh: Any) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
         raise BuildError(f"triangles: integers are wanted, not {numbers.dtype}")
     if numbers.size and (numbers.min() < 0 or numbers.max() > 0xFFFFFFFF):
         raise BuildError("triangles: a vertex number is negative or beyond 32 bits")
-    return vertices, np.ascontiguousarray(numbers, np.uint32)
+    vertices = np.require(vertices, np.float64, ["C", "A"])
+    return vertices, np.require(numbers, np.uint32, ["C", "A"])
 
 
-def _rows(given: ArrayLike, what: str) -> NDArray[np.floating[Any]]:
-    rows = np.asarray(given)
+def _numbers(
+    given: ArrayLike, what: str, refused: type[MeshsweepError] = QueryError
+) -> NDArray[Any]:
+    """An array of real numbers."""
+    if isinstance(given, np.ma.MaskedArray):
+        raise refused(f"{what}: a masked array is given; leave out what is masked")
+    try:
+        numbers = np.asarray(given)
+    except ValueError as error:
+        raise refused(f"{what}: {error}") from None
+    if numbers.dtype.kind not in "fiu":
+        raise refused(f"{what}: real numbers are wanted, not {numbers.dtype}")
+    return numbers
+
+
+def _single(numbers: NDArray[Any]) -> NDArray[np.float32]:
+    """In single precision, as Rust reads it. What is too large becomes infinite."""
+    with np.errstate(over="ignore"):
+        return np.require(numbers, np.float32, ["C", "A"])
+
+
+def _rows(given: ArrayLike, what: str) -> NDArray[Any]:
+    rows = _numbers(given, what)
     if rows.ndim == 1 and rows.shape[0] == 3:
         rows = rows[None, :]
     if rows.ndim != 2 or rows.shape[1] != 3:
@@ -428,17 +511,23 @@ def _points(
 ) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
     """The points in single precision, and bounds of how far each was moved, if any was."""
     rows = _rows(given, "points")
-    if rows.dtype == np.float32:
-        return np.ascontiguousarray(rows), None
-    wide = rows.astype(np.float64)
+    single = _single(rows)
+    if rows.dtype.kind == "f" and rows.dtype.itemsize <= 4:
+        return single, None
     with np.errstate(over="ignore"):
-        single = np.ascontiguousarray(wide, np.float32)
-    # The differences are exact. A number that is too large is refused as infinite.
+        wide = rows.astype(np.float64)
+    # These differences are exact. A number that is not finite is refused later.
     with np.errstate(invalid="ignore"):
-        off = wide - single
+        off = np.abs(wide - single)
+    if rows.dtype.kind in "iu" or rows.dtype.itemsize > 8:
+        # Other numbers were perhaps rounded to double precision before.
+        is_exact = (np.abs(wide) < 2.0**53) if rows.dtype.kind in "iu" else wide == rows
+        off = np.where(is_exact, off, off + np.abs(wide) * 2.0**-52)
+    off[~np.isfinite(off)] = 0.0
     if not np.any(off):
         return single, None
-    return single, np.nextafter(np.linalg.norm(off, axis=1).astype(np.float32), np.float32(np.inf))
+    moved = np.nextafter(np.linalg.norm(off, axis=1).astype(np.float32), np.float32(np.inf))
+    return single, np.where(np.any(off, axis=1), moved, np.float32(0))
 
 
 def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
@@ -446,18 +535,48 @@ def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
     if moved is None:
         return found
     slack = moved.reshape(moved.shape + (1,) * (found.ndim - 1))
+    is_held = slack == 0
     lower = np.nextafter(found.lower - slack, np.float32(-np.inf))
     upper = np.nextafter(found.upper + slack, np.float32(np.inf))
-    if found.dtype.names is not None and "side" in found.dtype.names:
+    lower = np.where(is_held, found.lower, lower)
+    upper = np.where(is_held, found.upper, upper)
+    names = found.dtype.names or ()
+    if "side" in names:
         certain = np.where(lower > 0, Side.OUTSIDE, np.where(upper < 0, Side.INSIDE, 0))
         # A field that does not tell sides keeps its distances at 0 and above.
-        kept = np.where(found.side == certain, certain, 0)
+        kept = np.where(is_held | (found.side == certain), found.side, 0)
         lower = np.where((found.side == 0) & (found.lower >= 0), np.maximum(lower, 0), lower)
         found.side[:] = kept
     else:
         lower = np.maximum(lower, np.float32(0))
+    if "safe_motion" in names:
+        left = np.nextafter(found.safe_motion - slack, np.float32(-np.inf))
+        left = np.where(is_held, found.safe_motion, left)
+        found.safe_motion[:] = np.maximum(left, np.float32(0))
     found.lower[:] = lower
     found.upper[:] = upper
+    return found
+
+
+def _asked(
+    ask: Callable[[NDArray[np.float32]], Records], distance: float, slack: NDArray[np.float64]
+) -> Records:
+    """Verdicts about `distance`, which single precision may not hold, with so much slack.
+
+    Farther than the distance and the slack is farther; nearer than the distance less the slack is
+    nearer; the rest is undecided.
+    """
+    if float(np.float32(distance)) == distance and not np.any(slack):
+        return ask(np.array([distance], np.float32))
+    found = ask(_up(distance + slack))
+    near = ask(_down(np.maximum(distance - slack, 0.0)))
+    is_near = (near.verdict == Verdict.YES) & (distance >= slack)
+    is_open = (found.verdict == Verdict.YES) & ~is_near
+    found[is_near] = near[is_near]
+    found.verdict[is_open] = Verdict.UNDECIDED
+    found.ended[is_open] = Ended.RESOLUTION
+    witness = "triangle" if "triangle" in (found.dtype.names or ()) else "triangles"
+    found[witness][is_open] = -1
     return found
 
 
@@ -469,29 +588,53 @@ def _down(values: NDArray[np.float64]) -> NDArray[np.float32]:
     return np.maximum(np.nextafter(values.astype(np.float32), np.float32(-np.inf)), np.float32(0))
 
 
-def _checked(distance: float) -> float:
-    if not (np.isfinite(distance) and distance >= 0):
+def _checked(distance: SupportsFloat) -> float:
+    try:
+        value = float(distance)
+    except (TypeError, ValueError):
+        raise QueryError(f"distance: one number is wanted, not {distance!r}") from None
+    if not (np.isfinite(value) and value >= 0):
         raise QueryError(f"distance: {distance} is negative or not finite")
-    return float(distance)
+    if value > float(np.finfo(np.float32).max):
+        raise QueryError(f"distance: {distance} is beyond single precision")
+    return value
+
+
+def _facing(facing: Facing | int) -> int:
+    try:
+        return int(Facing(facing))
+    except ValueError:
+        raise QueryError(f"facing: a meshsweep.Facing is wanted, not {facing!r}") from None
+
+
+def _other(other: Model) -> _meshsweep.Model:
+    if not isinstance(other, Model):
+        raise QueryError(f"other: another Model is wanted, not {type(other).__name__}")
+    return other._model
 
 
 def _pairs(a: ArrayLike, b: ArrayLike) -> NDArray[np.float32]:
     """Rows of six: both ends, or origin and direction."""
     first, second = _rows(a, "starts"), _rows(b, "ends")
-    first, second = np.broadcast_arrays(first, second)
-    with np.errstate(over="ignore"):
-        return np.ascontiguousarray(np.hstack([first, second]), np.float32)
+    try:
+        first, second = np.broadcast_arrays(first, second)
+    except ValueError:
+        raise QueryError(f"{len(first)} starts for {len(second)} ends") from None
+    return _single(np.hstack([first, second]))
 
 
 def _poses(poses: ArrayLike | None) -> NDArray[np.float32]:
     """Rows of twelve: the upper three rows of each matrix."""
-    matrices = np.eye(4) if poses is None else np.asarray(poses)
+    matrices = np.eye(4) if poses is None else _numbers(poses, "poses")
     if matrices.ndim == 2:
         matrices = matrices[None]
     if matrices.ndim != 3 or matrices.shape[1:] not in [(4, 4), (3, 4)]:
         raise QueryError(f"poses: shape (n, 4, 4) or (n, 3, 4) is wanted, not {matrices.shape}")
-    upper = matrices[:, :3, :].reshape(len(matrices), 12)
-    return np.ascontiguousarray(upper, np.float32)
+    wrong = np.flatnonzero(np.any(matrices[:, 3:] != [0, 0, 0, 1], axis=(1, 2)))
+    for row in wrong[:1]:
+        last = matrices[row, 3].tolist()
+        raise QueryError(f"row {row}: the last row is {last}, not 0, 0, 0, 1: transposed?")
+    return _single(matrices[:, :3, :].reshape(len(matrices), 12))
 
 
 def _parts(begins: NDArray[np.uint64], found: Records) -> list[Records]:

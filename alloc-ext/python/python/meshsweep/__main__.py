@@ -26,9 +26,7 @@ def show(file: str) -> None:
     part = meshsweep.build(file, "closest,segment,tight", progress=True)
     for note in part.report:
         print(note.text)
-    bounds = part.bounds
-    assert bounds is not None, "the model has a box tree"
-    low, high = bounds
+    low, high = part.bounds
     middle, size = (low + high) / 2, high - low
     print(f"{file}: {len(bytes(part)):,} bytes for {', '.join(part.serves)}")
     print(f"box {low} to {high}; closed: {part.is_closed}")

@@ -12,7 +12,7 @@ class NotServedError(MeshsweepError): ...
 
 _Records: TypeAlias = NDArray[np.uint8]
 _Rows: TypeAlias = NDArray[np.float32]
-_Many: TypeAlias = tuple[NDArray[np.uint64], _Records]
+_Many: TypeAlias = tuple[NDArray[np.uint64], _Records, NDArray[np.bool_]]
 _Mesh: TypeAlias = tuple[NDArray[np.float32], NDArray[np.uint32]]
 _Tell: TypeAlias = Callable[[str, float], Any] | None
 
@@ -20,6 +20,7 @@ class _Facts(TypedDict):
     serves: list[str]
     is_curve: bool
     bounds: list[list[float]] | None
+    stored_bounds: list[list[float]] | None
     is_closed: bool | None
     has_sides: bool | None
     surface_error: float | None
@@ -32,7 +33,9 @@ class Model:
     def closest_point(
         self, points: _Rows, limits: tuple[float, float, int | None], size: int
     ) -> _Records: ...
-    def signed_distance(self, points: _Rows, steps: int | None, size: int) -> _Records: ...
+    def signed_distance(
+        self, points: _Rows, steps: int | None, by_nearest_alone: bool, size: int
+    ) -> _Records: ...
     def within(self, rows: _Rows, steps: int | None, size: int) -> _Records: ...
     def nearest(self, points: _Rows, count: int, size: int) -> _Records: ...
     def all_within(self, points: _Rows, distance: float, size: int) -> _Many: ...
