@@ -7,12 +7,12 @@
  * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
  * than 64.
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
- *   msw_open_curve                  1792 / 1664    1856 / 1792    1792 / 1664    1728 / 1536
- *   msw_curve_closest_point         2048 / 1920    2112 / 1856    2112 / 1920    1856 / 1664
- *   msw_curve_within                1280 / 1280    1344 / 1280    1280 / 1280    1088 / 1088
- *   msw_curve_nearest               1536 / 1536    1600 / 1536    1536 / 1536    1344 / 1280
- *   msw_curve_all_within            1600 / 1536    1600 / 1536    1600 / 1536    1344 / 1280
- *   msw_curve_signed_distance       2432 / 2304    2496 / 2240    2432 / 2304    2112 / 1984
+ *   msw_open_curve                  1856 / 1728    1920 / 1856    1856 / 1728    1792 / 1600
+ *   msw_curve_closest_point         2048 / 1920    2048 / 1856    2112 / 1920    1792 / 1664
+ *   msw_curve_within                1280 / 1280    1280 / 1280    1280 / 1280    1088 / 1088
+ *   msw_curve_nearest               1536 / 1536    1536 / 1472    1536 / 1536    1280 / 1280
+ *   msw_curve_all_within            1536 / 1536    1536 / 1472    1536 / 1536    1280 / 1280
+ *   msw_curve_signed_distance       2432 / 2304    2368 / 2240    2432 / 2304    2112 / 1984
  *   msw_checksum                     1088 / 896     1088 / 960     1088 / 896      960 / 832
  *   msw_pose_of_quaternion            192 / 256      320 / 448      192 / 256      192 / 320
  *   msw_pose_then                     640 / 512      832 / 832      640 / 512      704 / 768

@@ -8,12 +8,12 @@
 // Bytes of the processor's stack that a question takes, at opt-level "s" / 3. Debug builds
 // take several times as much: core/docs/guide.md tells how to avoid it.
 //                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
-//   open curves                     1664 / 1536    1728 / 1664    1664 / 1536    1600 / 1408
-//   closest point of curves         1920 / 1856    1920 / 1792    1920 / 1856    1664 / 1600
-//   sweep of curves                 2304 / 2240    2432 / 2432    2304 / 2240    1984 / 1984
-//   nearest segments of curves      1472 / 1408    1536 / 1408    1472 / 1408    1280 / 1216
-//   all within of curves            1536 / 1408    1536 / 1408    1472 / 1408    1280 / 1280
-//   signed distance of curves       2176 / 2112    2176 / 2112    2176 / 2176    1920 / 1856
+//   open curves                     1728 / 1600    1792 / 1728    1728 / 1600    1664 / 1472
+//   closest point of curves         1920 / 1856    1856 / 1792    1920 / 1856    1664 / 1600
+//   sweep of curves                 2240 / 2240    2368 / 2304    2240 / 2240    1984 / 1920
+//   nearest segments of curves      1472 / 1472    1472 / 1408    1472 / 1408    1280 / 1216
+//   all within of curves            1472 / 1472    1472 / 1408    1472 / 1408    1280 / 1280
+//   signed distance of curves       2176 / 2176    2112 / 2048    2176 / 2176    1856 / 1856
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
 

@@ -20,7 +20,7 @@
 //   distance of two models        11520 / 10816  11328 / 10752  11520 / 10816  10880 / 10304
 //   coherent pair                 13184 / 12864  13120 / 12800  13184 / 12864  12608 / 12224
 //   scene                         12928 / 12864  12864 / 12800  12928 / 12864  12416 / 12288
-//   distance of a solid           11840 / 10368  11712 / 10176  11840 / 10368   11264 / 9600
+//   distance of a solid           11840 / 10368  11776 / 10176  11840 / 10368   11264 / 9600
 //   first contact                 10688 / 10048   10560 / 9728  10688 / 10048   10240 / 9280
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
