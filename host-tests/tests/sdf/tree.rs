@@ -95,9 +95,9 @@ fn place(rng: &mut Rng, field: &Sdf<'_>) -> [i64; 3] {
         let size = 65_536 * i64::from(cells);
         // Sides of boxes too.
         match rng.below(4) {
-            0 => 512 * rng.below(size as usize / 512) as i64,
-            1 => 512 * (1 + rng.below(size as usize / 512)) as i64 - 1,
-            _ => rng.below(size as usize) as i64,
+            0 => 512 * (rng.below(size as usize / 512) as u64).cast_signed(),
+            1 => 512 * (1 + rng.below(size as usize / 512) as u64).cast_signed() - 1,
+            _ => (rng.below(size as usize) as u64).cast_signed(),
         }
     })
 }
@@ -224,7 +224,7 @@ fn a_place_outside_of_a_tree_is_as_far_as_its_nearest_place_and_the_way_to_it_al
         let field = Sdf::open(&bytes).expect("opens");
         let mut rng = Rng::new(4);
         for _ in 0..3000 {
-            let place = [0; 3].map(|_| rng.below(400_000) as i32 - 200_000);
+            let place = [0; 3].map(|_| (rng.below(400_000) as u32).cast_signed() - 200_000);
             let near = place.map(|x| x.clamp(0, 65_535));
             let beyond: Vec<i32> = (0..3).map(|k| (place[k] - near[k]).abs()).collect();
             let [most, sum] = [*beyond.iter().max().expect("three"), beyond.iter().sum()];

@@ -46,13 +46,7 @@ fn lesser(a: f32, b: f32) -> f32 {
 }
 
 fn from_0_to_1(x: f32) -> f32 {
-    if x < 0.0 {
-        0.0
-    } else if x > 1.0 {
-        1.0
-    } else {
-        x
-    }
+    x.clamp(0.0, 1.0)
 }
 
 /// Each edge with its stored square and normal, whichever of them the kernel reads.
@@ -131,7 +125,7 @@ pub fn hit<const KIND: u8>(from: [f32; 3], way: [f32; 3], fan: &Fan<'_>) -> f32 
             let (u, v) = (-xb / determinant, xa / determinant);
             if u >= 0.0 && v >= 0.0 && u + v <= 1.0 {
                 let t = -dot(normal, s) / determinant;
-                if t >= 0.0 && t <= 1.0 {
+                if (0.0..=1.0).contains(&t) {
                     first = lesser(t, first);
                 }
             }
