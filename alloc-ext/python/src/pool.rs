@@ -1,7 +1,7 @@
 //! The threads that share the work, also in a process that was forked.
 //!
 //! A fork copies no threads. The child of a process that used rayon's pool has the pool without
-//! its threads, and whoever asks it waits without end. So such a child makes a pool of its own.
+//! its threads, and a question to it waits without end. So such a child makes a pool of its own.
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;

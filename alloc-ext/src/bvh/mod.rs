@@ -6,19 +6,19 @@
 //!
 //! Any triangle soup will do. The mesh need not be closed or manifold.
 //!
-//! **Lost:** candidate lists, an octree whose cells name the triangles that can be closest to a point
-//! of them. They were to take a third of the tree's instructions at 30 bytes a triangle. A trial
-//! without bounds of rounding and without checks of bytes had, on a Cortex-M4F, far / near / along a
-//! path:
+//! **Lost:** candidate lists, an octree whose cells name the triangles that can be closest to a
+//! point of them. They were to take a third of the tree's instructions at 30 bytes a triangle. A
+//! trial without bounds of rounding and without checks of bytes had, on a Cortex-M4F, far / near /
+//! along a path:
 //!
 //! | mesh | box tree | candidate lists | bytes a triangle |
 //! | --- | --- | --- | --- |
 //! | bracket, 1,948 triangles | 9,685 / 9,963 / 10,769 | 5,924 / 4,618 / 10,360 | 14; 65 |
 //! | rocker arm, simplified to 2,500 | 8,702 / – / – | 2,767 / 1,754 / 3,193 | 13; 60 |
 //!
-//! The tree's numbers are those of `bracket_tree` in `host-tests/costs.txt`, and of `cargo xtask count
-//! --board "bvh BLOB 0"`. The lists' are means of 200 questions, with 28 bytes a triangle for corners
-//! and planes.
+//! The tree's numbers are those of `bracket_tree` in `host-tests/costs.txt`, and of `cargo xtask
+//! count --board "bvh BLOB 0"`. The lists' are means of 200 questions, with 28 bytes a triangle for
+//! corners and planes.
 
 mod batch;
 mod build;

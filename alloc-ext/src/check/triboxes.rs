@@ -205,7 +205,7 @@ fn voids(triboxes: &Triboxes, mesh: &[[[f64; 3]; 3]]) -> Result<(), String> {
         let along = || mesh.iter().flatten().map(|p| p[k]);
         along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min)
     };
-    // A thin solid's volume is what is left of large terms.
+    // Large terms cancel to a thin solid's volume.
     let doubt = VOID + 1e-12 * box_of(0) * box_of(1) * box_of(2) / solid;
     for (index, level) in triboxes.levels.iter().enumerate() {
         if level.void_ratio == 0.0 {

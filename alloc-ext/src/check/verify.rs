@@ -79,9 +79,9 @@ pub fn verify(bytes: &[u8], against: Against<'_>) -> Vec<Finding> {
     out
 }
 
-/// Proves what a blob claims of the file's triangles, before rounding: tight hulls and triboxes hold
-/// them, and the triangles of a box tree and of a hull hierarchy's finest surface are within the
-/// surface error of them. The hierarchy's levels enclose the surface as stored.
+/// Proves what a blob claims of the file's triangles, before rounding: tight hulls and triboxes
+/// hold them, and the triangles of a box tree and of a hull hierarchy's finest surface are within
+/// the surface error of them. The hierarchy's levels enclose the surface as stored.
 ///
 /// The bytes must open, by [`Blob::open`](meshsweep_core::Blob::open).
 ///

@@ -145,8 +145,9 @@ impl Plain {
 
 /// Reads polylines from CSV: x,y or x,y,z on a line, and at most one header line before, between
 /// commas or semicolons. Lines that begin with a `#` are comments, and where no column but x, y, z
-/// and `zone` is there, so is what follows a `#`. A blank line begins a new polyline. So does another value in a column `polyline` of the header. Columns
-/// of other names are skipped. With `close` each polyline's last point is joined with its first.
+/// and `zone` is there, so is what follows a `#`. A blank line begins a new polyline. So does
+/// another value in a column `polyline` of the header. Columns of other names are skipped. With
+/// `close` each polyline's last point is joined with its first.
 ///
 /// A column `zone` of the header makes zones of the polylines, `inclusion` or `exclusion`. Zones
 /// are closed. A line of the other kind begins a new zone, and so does the line after one that

@@ -47,8 +47,8 @@ pub struct SdfOptions {
     pub margin: Option<f64>,
     /// What distances mean. `None`: signed if the mesh is closed and has sides, else surface.
     pub kind: Option<SdfKind>,
-    /// How the field lies in its bytes. `None`: both are built, and the one of the smaller mean width
-    /// is kept.
+    /// How the field lies in its bytes. `None`: both are built, and the one of the smaller mean
+    /// width is kept.
     pub layout: Option<SdfLayout>,
 }
 
@@ -89,8 +89,8 @@ pub struct SdfReport {
     pub steps: u32,
     /// Bytes of the section.
     pub bytes: usize,
-    /// Mean width of the intervals at the samples up to a tenth of the diagonal from the surface. Of
-    /// a signed field all samples inside count too, of a solid one none.
+    /// Mean width of the intervals at the samples up to a tenth of the diagonal from the surface.
+    /// Of a signed field all samples inside count too, of a solid one none.
     pub mean_width: f64,
     /// The same of the other layout, if it was built too.
     pub other_width: Option<f64>,

@@ -1,9 +1,9 @@
 //! Codes of the lattice's corners.
 //!
-//! They begin at the rounded distances. In each round every code moves, one step at a time, while the
-//! weighted width of the eight cells about its corner falls. Corners whose x, y and z have the same
-//! three parities share no cell, so they move at once, and the codes do not depend on the number of
-//! threads.
+//! They begin at the rounded distances. In each round every code moves, one step at a time, while
+//! the weighted width of the eight cells about its corner falls. Corners whose x, y and z have the
+//! same three parities share no cell, so they move at once, and the codes do not depend on the
+//! number of threads.
 
 use super::domain::Domain;
 use super::function::Trilinear;

@@ -1,5 +1,5 @@
-//! The distance field: a lattice of distances, or a tree of functions, and for each cell errors that
-//! are proved.
+//! The distance field: a lattice of distances, or a tree of functions, and for each cell errors
+//! that are proved.
 //!
 //! ```text
 //! domain    cells and units, from a number of bytes

@@ -2,8 +2,8 @@
 //!
 //! A cell begins with errors that are wanted. Its box is accepted if bounds of the difference
 //! between distance and function ([`super::bound`]) show that the errors suffice; else its parts,
-//! eight of a cube, are looked at. A box of the least size widens the errors to what its bounds need. So the
-//! errors always hold; how good they are depends on the wanted ones.
+//! eight of a cube, are looked at. A box of the least size widens the errors to what its bounds
+//! need. So the errors always hold; how good they are depends on the wanted ones.
 
 use super::bound::{flat, greatest, least, most, most_of_facet};
 use super::function::{Function, Linear};
@@ -107,8 +107,8 @@ pub(super) struct Prover<'a, F> {
 }
 
 impl<'a, F: Function> Prover<'a, F> {
-    /// Proves the errors of a cell, which are the wanted ones or larger. The cell's least corner and
-    /// its sides are in units.
+    /// Proves the errors of a cell, which are the wanted ones or larger. The cell's least corner
+    /// and its sides are in units.
     pub fn cell(
         truth: &'a Truth<'a>,
         function: F,

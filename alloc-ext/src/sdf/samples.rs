@@ -18,8 +18,8 @@ pub(super) struct Sample {
 }
 
 impl Sample {
-    /// The interval that the field's must contain at the sample, units. Inside of a solid one it must
-    /// go down to 0, and no upper end is asked for.
+    /// The interval that the field's must contain at the sample, units. Inside of a solid one it
+    /// must go down to 0, and no upper end is asked for.
     pub fn limits(self, kind: SdfKind) -> [f32; 2] {
         let d = self.distance;
         match (self.side, kind) {

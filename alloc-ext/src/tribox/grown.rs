@@ -132,10 +132,10 @@ fn largest(mesh: &Mesh, simplify: f32) -> f64 {
 }
 
 impl<'a> Grown<'a> {
-    /// Splits a mesh for display: the triboxes' planes lie on [grids](meshsweep_core::Tribox::on_grid) of their
-    /// own. If a measure is given, the mesh is split a second time as
-    /// [`TriboxOptions::orient`](super::TriboxOptions::orient) says, and the second result is what
-    /// that gained.
+    /// Splits a mesh for display: the triboxes' planes lie on
+    /// [grids](meshsweep_core::Tribox::on_grid) of their own. If a measure is given, the mesh is
+    /// split a second time as [`TriboxOptions::orient`](super::TriboxOptions::orient) says, and the
+    /// second result is what that gained.
     ///
     /// # Errors
     /// Those of [`Hierarchy::new`].

@@ -9,9 +9,10 @@ use crate::query::{
 impl BvhWithSdf<'_> {
     /// [`Bvh::closest_point`](crate::Bvh::closest_point). The field's interval limits the search:
     /// no triangle beyond its upper end is looked at, and with a tolerance a triangle that is near
-    /// enough to its lower end ends the search. With a limit of steps, or with less scratch than the
-    /// tree asks for, the search is the tree's own. Without a tolerance the answer has the tree's bits,
-    /// but for `work`; then processors with vector registers, or without floating point, ask the tree alone.
+    /// enough to its lower end ends the search. With a limit of steps, or with less scratch than
+    /// the tree asks for, the search is the tree's own. Without a tolerance the answer has the
+    /// tree's bits, but for `work`; then processors with vector registers, or without floating
+    /// point, ask the tree alone.
     ///
     /// With a tolerance the lower end of the distance is the greater one of both. The upper end is
     /// that of the triangle found. If the distance is enough without a point,
@@ -61,8 +62,8 @@ impl BvhWithSdf<'_> {
         }
     }
 
-    /// Whether the field's interval limits the search. Where steps or memory may end a search, it is
-    /// the tree's own: a search that ends before it found a triangle within the limit would know
+    /// Whether the field's interval limits the search. Where steps or memory may end a search, it
+    /// is the tree's own: a search that ends before it found a triangle within the limit would know
     /// none. Vector targets search exact points in an order of their own, and integers have limits
     /// of their own.
     #[inline(always)]

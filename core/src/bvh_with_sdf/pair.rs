@@ -10,8 +10,8 @@ use crate::sdf::{FieldDistance, Sdf, SdfKind};
 /// answers the ones that it can, and limits the search of the others.
 ///
 /// Every answer is at least as good as the tree's: it holds as surely, and no interval is wider
-/// than the tolerance asked for, up to the surface error and rounding, as the tree's. [`tree`](Self::tree) and [`field`](Self::field) give both views
-/// for all other questions.
+/// than the tolerance asked for, up to the surface error and rounding, as the tree's.
+/// [`tree`](Self::tree) and [`field`](Self::field) give both views for all other questions.
 ///
 /// ```
 /// use meshsweep_core::{Budget, BvhWithSdf, Scratch};

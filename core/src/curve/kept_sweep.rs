@@ -30,8 +30,8 @@ pub struct CurveSweep<'m, 'a> {
     best: Option<u32>,
     /// Whether the queue holds a search that may go on.
     is_begun: bool,
-    /// Whether this search was begun anew because its queue had overflowed. It is not begun a second
-    /// time before an answer, so that calls with few steps come to an end.
+    /// Whether this search was begun anew because its queue had overflowed. It is not begun a
+    /// second time before an answer, so that calls with few steps come to an end.
     is_second: bool,
 }
 

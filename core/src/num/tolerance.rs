@@ -25,8 +25,8 @@ pub const DETERMINANT: f32 = 16.0;
 /// they lose less than 6e-6, and roundings 1e-6 (§17).
 pub const ROOT_UP: f32 = 1.0 + 1.0 / 65_536.0;
 
-/// Factor that makes an upper bound of a root out of the guess by bits, 1 + 5/128: it is off by less
-/// than 0.035, and 0.965 of this factor is above 1.002 (§17).
+/// Factor that makes an upper bound of a root out of the guess by bits, 1 + 5/128: it is off by
+/// less than 0.035, and 0.965 of this factor is above 1.002 (§17).
 pub const GUESS_UP: f32 = 1.0 + 5.0 / 128.0;
 
 /// Added to a square before its root is bounded, 2^-100, so that no guess begins near f32's
@@ -648,8 +648,9 @@ pub const CAPSULE_UNDERFLOW: f32 = 1.0 / (1u64 << 48) as f32;
 pub const CURVE_FAR: f64 = (1u32 << 24) as f64;
 
 /// Rounding of the turn from a segment to a point, in units of [`U64`] times the sizes of its two
-/// products. Proved: 5 (§14). Where a distance is proved to be above 0, every turn is far larger, and
-/// nearer points are undecided anyway: a second line of defence. Up to 16 it leaves no turn unclear.
+/// products. Proved: 5 (§14). Where a distance is proved to be above 0, every turn is far larger,
+/// and nearer points are undecided anyway: a second line of defence. Up to 16 it leaves no turn
+/// unclear.
 pub const CURVE_TURN: f64 = 8.0;
 
 // Triboxes

@@ -14,8 +14,8 @@ pub enum QueryError {
     NoDirection,
     /// A pair names a model that the scene does not have, or one model twice.
     NoModel,
-    /// A [`Joint`](crate::Joint) names a parent that is not before it, or a place that is not given;
-    /// or there is not one pose for each joint.
+    /// A [`Joint`](crate::Joint) names a parent that is not before it, or a place that is not
+    /// given; or there is not one pose for each joint.
     NoJoint,
     /// A solid has no corners, or more than [`Solid::MOST_CORNERS`](crate::Solid::MOST_CORNERS). Or
     /// a solid that moves has not as many at the end as at the start.

@@ -7,8 +7,8 @@ use super::work::Work;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Hit {
-    /// Parameter, 0 at the start of the segment or the motion, 1 at its end. Of a ray, 1 at the end of
-    /// its direction; at most [`f32::MAX`], and then `point` tells where.
+    /// Parameter, 0 at the start of the segment or the motion, 1 at its end. Of a ray, 1 at the end
+    /// of its direction; at most [`f32::MAX`], and then `point` tells where.
     pub t: f32,
     /// The point.
     pub point: [f32; 3],

@@ -44,8 +44,8 @@ impl Sdf<'_> {
     /// distance with both signs. Side: `Outside` if the lower end is above 0, `Inside` if the upper
     /// end is below 0; else undecided for [`OnSurface`](Undecided::OnSurface), also far from the
     /// surface where the winding number is neither 0 nor 1. A field of kind
-    /// [`Solid`](SdfKind::Solid) never says `Inside`. One of kind [`Surface`](SdfKind::Surface) tells
-    /// no side: [`OpenMesh`](Undecided::OpenMesh).
+    /// [`Solid`](SdfKind::Solid) never says `Inside`. One of kind [`Surface`](SdfKind::Surface)
+    /// tells no side: [`OpenMesh`](Undecided::OpenMesh).
     ///
     /// Outside of the field, let e be the distance from the field, and a to b the interval at the
     /// nearest place of it. The interval is √(e² + a²) to e + b, from e if a is below 0. Its upper
@@ -86,8 +86,8 @@ impl Sdf<'_> {
     /// distance rises the most, of a length near 1.
     ///
     /// The gradient is that of the cell's function. It jumps between cells and carries no
-    /// guarantee: use it as a direction, of a force or of a step. It is short, or zero, where nearest
-    /// points lie on opposite sides, and means nothing inside of a field of kind
+    /// guarantee: use it as a direction, of a force or of a step. It is short, or zero, where
+    /// nearest points lie on opposite sides, and means nothing inside of a field of kind
     /// [`Solid`](SdfKind::Solid). Outside of the field it leads from about the nearest point of the
     /// surface to `point`, with length 1 at most.
     ///

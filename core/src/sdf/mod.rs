@@ -2,30 +2,30 @@
 //!
 //! *Why a lattice.* A search costs thousands of instructions whatever the tolerance, for it has to
 //! reach a triangle. A trilinear function of eight corners costs some hundred. Firmware that uses
-//! one today has no bound of its error, or one bound for all of it, and then the worst cell decides:
-//! a cell at a sharp edge or in a thin wall. Here each cell has an error of its own below and one
-//! above. Both are in one byte: two numbers of four bits, each into a book of sixteen errors. The
-//! interval is 2.5 to 40 times narrower for the same bytes (*historical*). `build` prints the mean width, and that of the widest cell, which a
-//! plain lattice would have everywhere.
+//! one today has no bound of its error, or one bound for all of it, and then the worst cell
+//! decides: a cell at a sharp edge or in a thin wall. Here each cell has an error of its own below
+//! and one above. Both are in one byte: two numbers of four bits, each into a book of sixteen
+//! errors. The interval is 2.5 to 40 times narrower for the same bytes (*historical*). `build`
+//! prints the mean width, and that of the widest cell, which a plain lattice would have everywhere.
 //!
 //! *Why a tree.* On machined parts the distance is a plane over long boxes and bends at few places.
-//! A node halves any of the three axes at once, so its children are cubes, plates or rods. A leaf has
-//! 40 bits: a plane, one curvature across it, and a width. It takes some more instructions than a
-//! lattice. On winding smooth shapes the lattice is narrower, for cells share corners. The builder
-//! makes both and keeps the narrower.
+//! A node halves any of the three axes at once, so its children are cubes, plates or rods. A leaf
+//! has 40 bits: a plane, one curvature across it, and a width. It takes some more instructions than
+//! a lattice. On winding smooth shapes the lattice is narrower, for cells share corners. The
+//! builder makes both and keeps the narrower.
 //!
-//! *Units.* Points, distances and errors are whole numbers of one unit, a 2048th of a lattice's cell or
-//! a 65,536th of a tree's root cell. So a
+//! *Units.* Points, distances and errors are whole numbers of one unit, a 2048th of a lattice's
+//! cell or a 65,536th of a tree's root cell. So a
 //! processor without floating point needs no conversion, and every number of a query fits 32 bits.
 //!
-//! *Kinds.* Forces need signed distances. A guard only needs that no point inside is called clear: it
-//! takes the distance to the solid, which is 0 inside, and walls thinner than a cell do not widen the
-//! interval. A mesh with holes has a distance without sign only.
+//! *Kinds.* Forces need signed distances. A guard only needs that no point inside is called clear:
+//! it takes the distance to the solid, which is 0 inside, and walls thinner than a cell do not
+//! widen the interval. A mesh with holes has a distance without sign only.
 //!
 //! *Lost* (*historical*, by a prototype on four meshes). Octrees with one constant or two planes a
 //! leaf: wider at the same bytes. Codes of sixteen bits: half as many cells, three times as wide.
-//! Bricks of cells in a tree: corners are stored twice. Leaves of two planes, or of ten numbers beside
-//! those of the tree: an eighth narrower for a second kernel.
+//! Bricks of cells in a tree: corners are stored twice. Leaves of two planes, or of ten numbers
+//! beside those of the tree: an eighth narrower for a second kernel.
 //!
 //! | where | what lies there |
 //! | --- | --- |

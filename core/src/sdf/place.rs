@@ -28,7 +28,8 @@ pub(super) fn are_below([x, y, z]: [u32; 3], [width, depth, height]: [u32; 3]) -
 
 impl Sdf<'_> {
     /// Whole units nearest to a point: within half a unit along each axis, and a sixteenth for
-    /// rounding. A difference and a product lose at most two parts in 2^24 of fewer than 2^19 units.
+    /// rounding. A difference and a product lose at most two parts in 2^24 of fewer than 2^19
+    /// units.
     #[inline(always)]
     pub(super) fn place(&self, point: [f32; 3]) -> Result<Place, QueryError> {
         if let Some(whole) = self.within_units(point, self.lattice) {
@@ -49,8 +50,8 @@ impl Sdf<'_> {
         (x >= 0.0 && y >= 0.0 && z >= 0.0 && are_below(whole, units)).then_some(whole)
     }
 
-    /// The point in units from the origin, f32. Truncation rounds it to the nearest unit from corner
-    /// 0.
+    /// The point in units from the origin, f32. Truncation rounds it to the nearest unit from
+    /// corner 0.
     #[inline(always)]
     fn unrounded(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
         let [a, b, c] = self.origin;

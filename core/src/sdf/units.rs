@@ -22,10 +22,10 @@ impl Sdf<'_> {
     /// the field, half a unit above [`bounds`](Sdf::bounds)`()[0]` along each axis.
     ///
     /// The bounds hold of the place itself: if a point was rounded to it, add a unit on each side.
-    /// The distances mean the same as those of [`distance`](Sdf::distance), and no rounding of f32 is
-    /// added. Of a field of kind signed a place is outside if `lower` is above 0, and inside if
-    /// `upper` is below 0; of kind solid only outside is told. Outside of the field, the greatest of
-    /// the coordinates' distances from it stands below, and their sum above.
+    /// The distances mean the same as those of [`distance`](Sdf::distance), and no rounding of f32
+    /// is added. Of a field of kind signed a place is outside if `lower` is above 0, and inside if
+    /// `upper` is below 0; of kind solid only outside is told. Outside of the field, the greatest
+    /// of the coordinates' distances from it stands below, and their sum above.
     ///
     /// Cost: one look-up in integers, the same for every place of a lattice, and
     /// [`steps`](Sdf::steps) entries at most of a tree; no scratch memory.
@@ -63,8 +63,9 @@ impl Sdf<'_> {
         Ok(outside(self.tree_value(nearest)?, beyond))
     }
 
-    /// The gradient at a place, 32,768 for 1: the direction in which the distance rises the most. See
-    /// [`distance_and_gradient`](Sdf::distance_and_gradient). Outside of the field there is none.
+    /// The gradient at a place, 32,768 for 1: the direction in which the distance rises the most.
+    /// See [`distance_and_gradient`](Sdf::distance_and_gradient). Outside of the field there is
+    /// none.
     ///
     /// Cost: about that of [`distance_in_units`](Self::distance_in_units).
     ///

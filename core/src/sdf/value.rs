@@ -1,10 +1,10 @@
 //! The interval at a place of a lattice, in integers.
 //!
-//! Codes have 8 bits. Interpolation along x and then y adds 11 bits each and loses nothing: 30 bits.
-//! Along z the difference first drops its last 11 bits, so that the product fits 32. The upper 18
-//! bits, ten of them below a code, are multiplied by the step. All shifts round down, so the value is
-//! at most [`value_loss`](super::format::layout::value_loss) units too small. The builder adds these
-//! to the errors above.
+//! Codes have 8 bits. Interpolation along x and then y adds 11 bits each and loses nothing: 30
+//! bits. Along z the difference first drops its last 11 bits, so that the product fits 32. The
+//! upper 18 bits, ten of them below a code, are multiplied by the step. All shifts round down, so
+//! the value is at most [`value_loss`](super::format::layout::value_loss) units too small. The
+//! builder adds these to the errors above.
 
 use super::format::Sdf;
 use super::format::layout::{BOOK, CELL_UNITS, FRACTION_BITS, VALUE_BITS};

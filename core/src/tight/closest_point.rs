@@ -12,8 +12,8 @@ impl TightHull<'_> {
     /// `distance.upper` is at most the hull's distance plus the slack of its closest face. Outside
     /// the hull `distance.lower` is the hull's distance, so that the interval is as wide as the
     /// slack there. Inside, and nearer to the hull than 1/32 of its grid's unit (2 units with f32
-    /// vertices) and the surface error, it is less by the hull's depth, and at least 0. [`point`](ClosestPoint::point)
-    /// lies on the hull. There is no triangle.
+    /// vertices) and the surface error, it is less by the hull's depth, and at least 0.
+    /// [`point`](ClosestPoint::point) lies on the hull. There is no triangle.
     ///
     /// `scratch` as for [`Bvh::closest_point`](crate::Bvh::closest_point), for the hull's
     /// [`bvh`](TightHull::bvh). The budget's tolerances do not shorten the search. If the hull is

@@ -88,7 +88,7 @@ impl TightHull<'_> {
     }
 }
 
-/// What is left of a budget after some work.
+/// The budget less some work.
 #[inline(always)]
 fn after(budget: Budget, work: Work) -> Budget {
     match budget.steps {

@@ -28,7 +28,8 @@ const STEP: f32 = 1e-3;
 ///   whole units.
 /// - `within BLOB PART`, `within-both BLOB PART`: whether the box tree, alone or with the field, is
 ///   within such a part of the diagonal, at points up to a tenth of it from the surface.
-/// - `near BLOB RELATIVE`, `near-both BLOB RELATIVE`, `bounds-both BLOB RELATIVE`: closest points of
+/// - `near BLOB RELATIVE`, `near-both BLOB RELATIVE`, `bounds-both BLOB RELATIVE`: closest points
+/// of
 ///   the box tree, alone or with the field, and bounds of the distance, at the same points.
 ///
 /// # Errors

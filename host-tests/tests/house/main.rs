@@ -62,9 +62,9 @@ const BENEATH: &[&str] = &[
 /// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted` and
 /// `number` print numbers, `error` says why there is no blob, `progress` tells how much is done and
 /// asks whether to go on, `pose` makes matrices of quaternions, `random` gives the same numbers in
-/// every run. `cut`, `trade` and `builder` are above: they know all structures. `load` makes a clean
-/// mesh of a file for them. `check` proves the others' work and shares nothing with them but meshes.
-/// `trade` measures distances by it.
+/// every run. `cut`, `trade` and `builder` are above: they know all structures. `load` makes a
+/// clean mesh of a file for them. `check` proves the others' work and shares nothing with them but
+/// meshes. `trade` measures distances by it.
 const BUILDER: [(&str, &[&str]); 27] = [
     ("counted", &[]),
     ("number", &[]),

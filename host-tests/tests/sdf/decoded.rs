@@ -96,7 +96,8 @@ impl Field {
         let value = self.base + 1057.0 / 32_768.0 * (code * self.step + along + bend);
         let width = (bits >> 24 & 31) as usize;
         let width = if width < 16 { self.low[width] } else { self.high[width - 16] };
-        // The function is claimed to be below the distance, and the last shift's unit is lost above.
+        // The function is claimed to be below the distance, and the last shift's unit is lost
+        // above.
         Some([value, value + width - 1.0])
     }
 

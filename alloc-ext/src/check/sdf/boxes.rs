@@ -1,15 +1,15 @@
 //! The proof of a cell, by boxes that are halved until each is proved.
 //!
-//! *Away from the surface.* Along any unit vector n a triangle ends at one of its corners, so from a
-//! point x it is at least as far as x is above the highest. Over a box with the centre c that is
+//! *Away from the surface.* Along any unit vector n a triangle ends at one of its corners, so from
+//! a point x it is at least as far as x is above the highest. Over a box with the centre c that is
 //! h + n·(x − c), h the height of c. Taken along the way from a near point of the triangle to c, it
 //! is the distance but for rounding, and it holds whatever rounding did to n. The distance of the
 //! surface is the least of those. It is at most |x − q|, q any point of the surface: convex, so the
 //! eight corners bound it against a linear function. The side is the same all over the box, for the
 //! surface does not cross it.
 //!
-//! *Across the surface.* Let all of the surface within 4r of c, the box's half diagonal being r, lie
-//! within δ ≤ r/2 of a plane through the nearest point, with the winding numbers 0 above and 1
+//! *Across the surface.* Let all of the surface within 4r of c, the box's half diagonal being r,
+//! lie within δ ≤ r/2 of a plane through the nearest point, with the winding numbers 0 above and 1
 //! below. A point x of the box at height t: from above the plane's slab the way down meets the
 //! surface, from below the way up does, both within the ball. The nearest point of the surface is
 //! in the ball, hence in the slab. So the signed distance is between t − δ and t + δ.
@@ -22,8 +22,8 @@ use super::sides::{Side, Sides};
 use glam::DVec3;
 
 /// What rounding may do to any number of a box, units: lengths below 2^21, a hundred sums and
-/// products of 2^-53 each. No quotient is trusted: unit vectors and means of corners are as sound if
-/// they are others.
+/// products of 2^-53 each. No quotient is trusted: unit vectors and means of corners are as sound
+/// if they are others.
 const MARGIN: f64 = 1.0 / (1 << 24) as f64;
 
 /// Boxes of this radius or less are not halved, units. A claim without slack stays unproved.
@@ -121,8 +121,8 @@ impl Grid {
     }
 }
 
-/// A point of a triangle next to a point: the nearest one but for rounding. It is a mean of corners,
-/// so it lies on the triangle whatever its shape.
+/// A point of a triangle next to a point: the nearest one but for rounding. It is a mean of
+/// corners, so it lies on the triangle whatever its shape.
 fn foot(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let on_edge = |from: DVec3, to: DVec3| {
         let way = to - from;

@@ -12,8 +12,8 @@ pub(super) enum Function {
 }
 
 impl Function {
-    /// Value and gradient at a place, which counts from the cell's least corner in units, and how far
-    /// the function is from these within half sides of a box, at most.
+    /// Value and gradient at a place, which counts from the cell's least corner in units, and how
+    /// far the function is from these within half sides of a box, at most.
     pub(super) fn about(&self, p: DVec3, half: DVec3) -> (f64, DVec3, f64) {
         match self {
             Self::OfLattice(function) => function.about(p, half),
@@ -44,13 +44,14 @@ impl Bent {
         let along = unit.dot(x);
         let value = self.constant + PART * self.gradient.dot(x) + bend * (x.dot(x) - along * along);
         let gradient = PART * self.gradient + 2.0 * bend * (x - unit * along);
-        // The squares of a way from the place, less that along the gradient: either is at most this.
+        // The squares of a way from the place, less that along the gradient: either is at most
+        // this.
         let rest = half.dot(half).max(unit.abs().dot(half).powi(2) - half.min_element().powi(2));
         (value, gradient, bend.abs() * rest)
     }
 
-    /// How far the value of a query may be below and above the function, units. Squares are those of
-    /// ways cut to 11 bits along the longest side, and shifts round down.
+    /// How far the value of a query may be below and above the function, units. Squares are those
+    /// of ways cut to 11 bits along the longest side, and shifts round down.
     pub(super) fn losses(&self) -> [f64; 2] {
         let largest = self.middle.max_element();
         let cut = (largest / 2048.0).max(1.0);

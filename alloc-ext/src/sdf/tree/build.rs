@@ -28,8 +28,8 @@ const FLOOR: f64 = 3e-4;
 /// many boxes of the other.
 const FLOOR_OF_WIDTH: f64 = 1.0 / 16.0;
 
-/// Steps along each side of a leaf at whose places it is fitted at last: of most leaves, and of those
-/// with a side of more than a quarter of a root cell's.
+/// Steps along each side of a leaf at whose places it is fitted at last: of most leaves, and of
+/// those with a side of more than a quarter of a root cell's.
 const STEPS: [usize; 2] = [8, 12];
 
 /// A tree.
@@ -87,8 +87,8 @@ impl Made {
     }
 }
 
-/// Builds a tree; `None` of a field that does not fit its numbers. `off` is how far the input may be
-/// from the mesh, units.
+/// Builds a tree; `None` of a field that does not fit its numbers. `off` is how far the input may
+/// be from the mesh, units.
 pub(in crate::sdf) fn build(
     truth: &Truth<'_>,
     domain: &Domain,

@@ -48,8 +48,8 @@ impl Scale {
         ((value - f64::from(self.base)) / self.step()).floor() as i64
     }
 
-    /// A scale that holds the leaves: this one, or a wider one, on which leaves go down and become as
-    /// much wider. A proof may have lowered a leaf by many codes.
+    /// A scale that holds the leaves: this one, or a wider one, on which leaves go down and become
+    /// as much wider. A proof may have lowered a leaf by many codes.
     pub fn holding(self, leaves: &mut [Coded]) -> Option<Self> {
         let in_range = |coded: &Coded| (0..=i64::from(MOST_CODE)).contains(&coded.code);
         if leaves.iter().all(in_range) {

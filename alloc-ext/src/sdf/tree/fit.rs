@@ -1,5 +1,5 @@
-//! The function of a box, from samples: a plane by least squares, then the curvature across it, both
-//! rounded as they are stored. Then steps of one number at a time, while the box gets cheaper.
+//! The function of a box, from samples: a plane by least squares, then the curvature across it,
+//! both rounded as they are stored. Then steps of one number at a time, while the box gets cheaper.
 
 use super::grid::Batch;
 use super::leaf::{Shape, UNIT};

@@ -10,10 +10,11 @@
 //! build      the stages, and the section's bytes
 //! ```
 //!
-//! *Partition.* Every dyadic box of a root cell is fitted once, by few samples. A box costs the width of
-//! its intervals, weighted by where questions are, and the price of five bytes. Or it is halved along
-//! any of the axes, and costs that price and what its parts cost. So the best partition at a price
-//! follows from the smallest boxes upwards, and the price is found that fills the bytes.
+//! *Partition.* Every dyadic box of a root cell is fitted once, by few samples. A box costs the
+//! width of its intervals, weighted by where questions are, and the price of five bytes. Or it is
+//! halved along any of the axes, and costs that price and what its parts cost. So the best
+//! partition at a price follows from the smallest boxes upwards, and the price is found that fills
+//! the bytes.
 
 mod build;
 mod codes;

@@ -89,8 +89,8 @@ impl Box3 {
     }
 }
 
-/// The boxes of a root cell that are halved so often along the axis that is halved most, those after
-/// the boxes that they are halves of.
+/// The boxes of a root cell that are halved so often along the axis that is halved most, those
+/// after the boxes that they are halves of.
 pub(super) fn boxes(root: [usize; 3], most: usize) -> Vec<(usize, Box3)> {
     let all = (0..BOXES).map(move |number| (number, Box3::by_number(root, number)));
     let mut kept: Vec<(usize, Box3)> =
@@ -114,7 +114,8 @@ impl Choice {
     }
 }
 
-/// Numbers of the boxes whose axes are all halved at most so often, those of the most halvings first.
+/// Numbers of the boxes whose axes are all halved at most so often, those of the most halvings
+/// first.
 fn order(most: usize) -> Vec<u32> {
     let level = |number: &u32| Box3::by_number([0; 3], *number as usize).level;
     let mut order: Vec<u32> = (0..BOXES as u32)
@@ -170,8 +171,9 @@ fn choose(costs: &[f32], order: &[u32], most: usize, price: f32) -> Choice {
     choice
 }
 
-/// The partition of all root cells into at most so many entries, and the least cost: by the costs of
-/// all boxes of each. No axis is halved more often than `most` times. Also the price of an entry.
+/// The partition of all root cells into at most so many entries, and the least cost: by the costs
+/// of all boxes of each. No axis is halved more often than `most` times. Also the price of an
+/// entry.
 pub(super) fn partition(
     costs: &[Vec<f32>],
     most: usize,

@@ -15,8 +15,8 @@ use meshsweep_core::internal::sdf::format::layout::tree::ENTRY_BYTES;
 /// while smaller boxes are looked at.
 const WORTH: f32 = 0.3;
 
-/// The partition of each root cell. Boxes are fitted by how often they are halved, and those of cheap
-/// boxes are not.
+/// The partition of each root cell. Boxes are fitted by how often they are halved, and those of
+/// cheap boxes are not.
 ///
 /// # Errors
 /// [`BuildError::Cancelled`].

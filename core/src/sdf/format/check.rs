@@ -8,9 +8,9 @@ use crate::format::layout::SectionKind;
 use crate::format::{Bytes, OpenError, SectionTable, ok, some};
 
 impl<'a> Sdf<'a> {
-    /// Opens the distance field of a blob where it lies, and checks it: CRC, header, lengths, and of
-    /// a tree that all entries are reached, and in how many steps. Any bytes are safe to open. It
-    /// reads no other sections, so that the code that checks them is not linked.
+    /// Opens the distance field of a blob where it lies, and checks it: CRC, header, lengths, and
+    /// of a tree that all entries are reached, and in how many steps. Any bytes are safe to open.
+    /// It reads no other sections, so that the code that checks them is not linked.
     ///
     /// Cost: the CRC, linear in the bytes; no allocation; once per start. Alignment of `bytes` does
     /// not matter.
@@ -50,8 +50,8 @@ impl<'a> Sdf<'a> {
         Sdf::locate(&ok!(SectionTable::view(bytes)))
     }
 
-    /// Of codes and errors only the number is checked: every byte is a valid code, or two numbers in
-    /// the books. A question of a tree ends and does not panic whatever its entries are.
+    /// Of codes and errors only the number is checked: every byte is a valid code, or two numbers
+    /// in the books. A question of a tree ends and does not panic whatever its entries are.
     const fn locate(table: &SectionTable<'a>) -> Result<Sdf<'a>, OpenError> {
         let data = table.bytes(SectionKind::Sdf);
         let malformed = table.malformed(SectionKind::Sdf);

@@ -25,13 +25,13 @@ pub const fn value_loss(step: u16) -> u32 {
 
 /// The numbers of a tree: entries of five bytes.
 ///
-/// A node: the number of its first child in bytes 0 and 1, the axes that it halves in byte 3 (bits 0
-/// to 2: x, y, z), 0 in bytes 2 and 4. Its children stand one after the other; those on the upper side
-/// of an axis after those on the lower, x fastest among the axes that are halved.
+/// A node: the number of its first child in bytes 0 and 1, the axes that it halves in byte 3 (bits
+/// 0 to 2: x, y, z), 0 in bytes 2 and 4. Its children stand one after the other; those on the upper
+/// side of an axis after those on the lower, x fastest among the axes that are halved.
 ///
-/// A leaf: 40 bits, from the lowest: three entries g of the gradient, the curvature k, six bits each
-/// with a sign; the width's number in the book, five bits; two bits of the code, 1, the other eight
-/// bits of the code.
+/// A leaf: 40 bits, from the lowest: three entries g of the gradient, the curvature k, six bits
+/// each with a sign; the width's number in the book, five bits; two bits of the code, 1, the other
+/// eight bits of the code.
 pub mod tree {
     /// Bytes of an entry.
     pub const ENTRY_BYTES: usize = 5;
@@ -65,18 +65,19 @@ pub mod tree {
     pub const SQUARE_BITS: u32 = 4;
     /// What the sum is shifted by before it is multiplied by [`PART`], so that the product fits.
     pub const VALUE_SHIFT: u32 = 4;
-    /// Largest distance of a tree from its base, units. By 1023 codes of the largest step, a gradient
-    /// of 32 in three half cells, and a curvature of 32 over 2¹⁶: less than 2^20.
+    /// Largest distance of a tree from its base, units. By 1023 codes of the largest step, a
+    /// gradient of 32 in three half cells, and a curvature of 32 over 2¹⁶: less than 2^20.
     pub const MOST_VALUE: u32 = 1 << 20;
 
-    /// How much a query's value may be below and above the leaf's function, in 2^-10 of a unit: of a
-    /// leaf with this curvature and this least level. All three ways count as the longest one.
+    /// How much a query's value may be below and above the leaf's function, in 2^-10 of a unit: of
+    /// a leaf with this curvature and this least level. All three ways count as the longest one.
     ///
-    /// A square of n whole steps of 2^cut stands for one of less than (n + 1)², n below 2^11, or along
-    /// the gradient below 2^13. The last shifts lose less than 1.6 units.
+    /// A square of n whole steps of 2^cut stands for one of less than (n + 1)², n below 2^11, or
+    /// along the gradient below 2^13. The last shifts lose less than 1.6 units.
     pub fn loss(curvature: i32, level: u32) -> [u32; 2] {
         let cut = SQUARE_BITS.saturating_sub(level);
-        // Of the ways, of which one is 2^15 over the level at most, in steps; and along the gradient.
+        // Of the ways, of which one is 2^15 over the level at most, in steps; and along the
+        // gradient.
         let most = 1u32 << (15 - level - cut);
         let ways = if cut == 0 { 0 } else { 3 * (2 * most + 1) };
         let along = 2 * 3 * most + 1;
@@ -90,8 +91,8 @@ pub mod tree {
 
 /// Offsets in the header.
 pub mod field {
-    /// Three f32, input units: the origin, half a unit below corner 0 of the lattice along each axis.
-    /// So truncating (point − origin) · per_unit rounds to the nearest unit from corner 0.
+    /// Three f32, input units: the origin, half a unit below corner 0 of the lattice along each
+    /// axis. So truncating (point − origin) · per_unit rounds to the nearest unit from corner 0.
     pub const ORIGIN: usize = 0;
     /// f32: units in one input unit.
     pub const PER_UNIT: usize = 12;
@@ -109,7 +110,8 @@ pub mod field {
     pub const CELLS: usize = 28;
     /// u8: entries that a question of a tree reads at most; 0 of a lattice.
     pub const STEPS: usize = 31;
-    /// Two books of sixteen u16: errors of a lattice below and above, or 32 widths of a tree, units.
+    /// Two books of sixteen u16: errors of a lattice below and above, or 32 widths of a tree,
+    /// units.
     pub const BOOKS: usize = 32;
     /// The second book.
     pub const HIGH: usize = 64;

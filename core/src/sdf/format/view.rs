@@ -1,8 +1,8 @@
 //! Checked view of the distance field.
 //!
-//! If [`Sdf::open`] returned `Ok`, then the field has at least one cell, no sum of a query leaves an
-//! i32, and the unit is a normal f32. In a lattice every corner has a code and every cell its errors.
-//! In a tree every place leads to a leaf in at most [`Sdf::steps`] entries.
+//! If [`Sdf::open`] returned `Ok`, then the field has at least one cell, no sum of a query leaves
+//! an i32, and the unit is a normal f32. In a lattice every corner has a code and every cell its
+//! errors. In a tree every place leads to a leaf in at most [`Sdf::steps`] entries.
 //! Accessors return `Option` all the same. No path can panic.
 
 use super::layout::{BOOK, FRACTION_BITS, SDF_BYTES, field, tree};
@@ -106,8 +106,8 @@ pub struct SdfHeader {
     pub cells: [u8; 3],
     /// Entries that a question of a tree reads at most; 0 of a lattice.
     pub steps: u8,
-    /// Book of a lattice: how far the distance may be below the trilinear function, units. Of a tree
-    /// the first sixteen widths.
+    /// Book of a lattice: how far the distance may be below the trilinear function, units. Of a
+    /// tree the first sixteen widths.
     pub low: [u16; BOOK],
     /// Book of a lattice: how far the distance may be above it, and the loss of a query's shifts,
     /// units. Of a tree the last sixteen widths.
@@ -150,10 +150,10 @@ impl SdfHeader {
 
 /// A distance field: each question is one look-up, without scratch memory and without a search.
 ///
-/// The field covers the mesh's box and a margin. It is a lattice of cubic cells with a code of eight
-/// bits at each corner, and a byte a cell that says how far the mesh's distance may be from the
-/// trilinear function of the codes, below and above. Or it is a tree: each of its cells has a plane
-/// with a curvature below the distance, and a width. The builder proves these errors.
+/// The field covers the mesh's box and a margin. It is a lattice of cubic cells with a code of
+/// eight bits at each corner, and a byte a cell that says how far the mesh's distance may be from
+/// the trilinear function of the codes, below and above. Or it is a tree: each of its cells has a
+/// plane with a curvature below the distance, and a width. The builder proves these errors.
 ///
 /// ```
 /// use meshsweep_core::{Sdf, Side};
@@ -206,8 +206,8 @@ impl Sdf<'_> {
         self.layout
     }
 
-    /// Entries that a question reads at most: cells of a tree one in the other, from the root cell to
-    /// the leaf. 1 of a lattice.
+    /// Entries that a question reads at most: cells of a tree one in the other, from the root cell
+    /// to the leaf. 1 of a lattice.
     pub const fn steps(&self) -> u32 {
         match self.layout {
             SdfLayout::Lattice => 1,
@@ -221,8 +221,8 @@ impl Sdf<'_> {
         each(self.units, |units| units >> bits)
     }
 
-    /// A unit in input units, rounded to nearest. A cell of a lattice has 2048 units along each axis,
-    /// a root cell of a tree 65,536.
+    /// A unit in input units, rounded to nearest. A cell of a lattice has 2048 units along each
+    /// axis, a root cell of a tree 65,536.
     pub const fn unit(&self) -> f32 {
         self.unit
     }
@@ -232,8 +232,8 @@ impl Sdf<'_> {
         self.per_unit
     }
 
-    /// The box of the points that round into the field: the origin, half a unit below corner 0 of the
-    /// lattice along each axis, and the opposite corner. Input units, rounded to nearest.
+    /// The box of the points that round into the field: the origin, half a unit below corner 0 of
+    /// the lattice along each axis, and the opposite corner. Input units, rounded to nearest.
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         let [x, y, z] = self.units;
         let [a, b, c] = self.origin;

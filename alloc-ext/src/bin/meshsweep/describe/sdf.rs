@@ -6,8 +6,8 @@ use meshsweep_core::{Sdf, SdfKind, SdfLayout};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// The largest error below and above, and the largest sum of both, in the mesh's unit. All error of a
-/// tree's leaf is above.
+/// The largest error below and above, and the largest sum of both, in the mesh's unit. All error of
+/// a tree's leaf is above.
 fn largest(sdf: &Sdf<'_>) -> [f64; 3] {
     let header = sdf.header();
     let of_cell = |&errors: &u8| {

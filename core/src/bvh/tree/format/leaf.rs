@@ -122,8 +122,8 @@ impl<'a> FanLeaf<'a> {
         out
     }
 
-    /// The corners of a triangle as stored, without the grid's origin, exactly. Of an unchecked leaf
-    /// with too few bytes some numbers.
+    /// The corners of a triangle as stored, without the grid's origin, exactly. Of an unchecked
+    /// leaf with too few bytes some numbers.
     #[inline(always)]
     pub fn stored_corners(&self, lane: usize) -> [Vec3; 3] {
         let which = usize::from(lane >= self.shape.turn());
