@@ -29,8 +29,7 @@ const STEP: f32 = 1e-3;
 /// - `within BLOB PART`, `within-both BLOB PART`: whether the box tree, alone or with the field, is
 ///   within such a part of the diagonal, at points up to a tenth of it from the surface.
 /// - `near BLOB RELATIVE`, `near-both BLOB RELATIVE`, `bounds-both BLOB RELATIVE`: closest points
-/// of
-///   the box tree, alone or with the field, and bounds of the distance, at the same points.
+///   of the box tree, alone or with the field, and bounds of the distance, at the same points.
 ///
 /// # Errors
 /// A blob that is missing or refused, or numbers that are none.

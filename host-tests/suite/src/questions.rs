@@ -65,6 +65,13 @@ const fn question(
     function: &'static str,
     kinds: &'static [Kind],
 ) -> Question {
+    // The builder's table of stacks is a CSV without quotes.
+    let bytes = name.as_bytes();
+    let mut at = 0;
+    while at < bytes.len() {
+        assert!(bytes[at] != b',', "a question's name has no comma");
+        at += 1;
+    }
     Question { name, needs, function, kinds, variants: &[], descents: None }
 }
 
@@ -141,9 +148,9 @@ pub const QUESTIONS: &[Question] = &[
         .with_variants(&[Kind::FieldBeyond]),
     question("distance and gradient of a field", "sdf", "sdf::gradient", &[Kind::FieldGradient]),
     question("within of a field", "sdf", "sdf::is_within", &[Kind::Within]),
-    question("within, field first", "both", "both::is_within", &[Kind::Within]).with_descents(1),
-    question("bounds, field first", "both", "both::bounded", &[Kind::Bounds]).with_descents(1),
-    question("signed bounds, field first", "both", "both::signed_bounded", &[Kind::SignedBounds])
+    question("field-first within", "both", "both::is_within", &[Kind::Within]).with_descents(1),
+    question("field-first bounds", "both", "both::bounded", &[Kind::Bounds]).with_descents(1),
+    question("field-first signed bounds", "both", "both::signed_bounded", &[Kind::SignedBounds])
         .with_descents(44),
     question("open curves", "curve", "curve::open", &[]),
     question(

@@ -12,7 +12,8 @@ use core::hint::black_box;
 
 use bare::Input;
 use meshsweep_suite::ask::{
-    Asked, apart, both, curve, deform, hull, hull_moving, joints, sdf, tight, tree, tribox, triboxes,
+    Asked, apart, both, curve, deform, hull, hull_moving, joints, sdf, tight, tree, tribox,
+    triboxes,
 };
 use meshsweep_suite::fold::Fold;
 use meshsweep_suite::place::{Ends, Motion, Place, Point};

@@ -54,8 +54,9 @@ impl<'t> Subject<'t> for BvhWithSdf<'t> {
         SignedBounds => signed_bounded(self, place.far(), place.distance(), scratch, to);
         Solid => solid(self, place.segment(), place.distance(), scratch, to);
         Contact => {
-            let ends = [place.segment(), place.segment()];
-            contact(self, ends, 0.25 * place.distance(), scratch, to);
+            let (start, end) = (place.far(), place.far());
+            let motion = [[start, place.near(start)], [end, place.near(end)]];
+            contact(self, motion, 0.25 * place.distance(), scratch, to);
         };
     }
 }
