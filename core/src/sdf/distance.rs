@@ -1,7 +1,7 @@
 //! The questions of the distance field in input units.
 
-use super::format::{Sdf, SdfKind};
-use super::place::Place;
+use super::format::{Sdf, SdfKind, SdfLayout};
+use super::units::UnitDistance;
 use super::value::SLOPE_BITS;
 use crate::num::{each, greater, lesser, sqrt_approx};
 use crate::query::{Interval, QueryError, Side, Undecided, Verdict};
@@ -62,24 +62,32 @@ impl Sdf<'_> {
     /// from the field's least corner.
     #[inline(never)]
     pub fn distance(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
-        Ok(match self.place(point)? {
-            Place::Lattice(place) => self.answer(self.within_field(self.value(place)?)),
-            Place::OfTree => return self.distance_of_tree(point),
-            Place::Beyond(place, beyond) => {
-                self.answer(self.outside_field(bounds_beyond(self.value(place)?, beyond)))
-            }
-        })
+        let Some(place) = self.within_field(point) else { return self.distance_beyond(point) };
+        match self.layout {
+            SdfLayout::Lattice => Ok(self.answer(self.in_input_units(self.value(place)?))),
+            SdfLayout::Tree => self.distance_of_tree(place),
+        }
     }
 
     #[inline(never)]
-    fn distance_of_tree(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
-        if let Some(place) = self.within_units(point, self.units) {
-            return Ok(self.answer(self.within_field(self.tree_value(place)?)));
-        }
-        let Place::Beyond(place, beyond) = self.beyond(point)? else {
-            return Err(QueryError::Unchecked);
+    fn distance_of_tree(&self, place: [u32; 3]) -> Result<FieldDistance, QueryError> {
+        let bounds = self.tree_bounds(self.root_within(place), place)?;
+        Ok(self.answer(self.in_input_units(bounds)))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn distance_beyond(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
+        let (place, beyond) = self.beyond(point)?;
+        let bounds = match self.layout {
+            SdfLayout::Lattice => self.value(place)?,
+            SdfLayout::Tree => {
+                let place = each(place, u32::cast_signed);
+                let UnitDistance { lower, upper } = self.distance_of_tree_in_units(&place)?;
+                [lower, upper]
+            }
         };
-        Ok(self.answer(self.outside_field(bounds_beyond(self.tree_value(place)?, beyond))))
+        Ok(self.answer(self.outside_field(bounds_beyond(bounds, beyond))))
     }
 
     /// [`distance`](Self::distance), and the gradient at the point: the direction in which the
@@ -100,37 +108,32 @@ impl Sdf<'_> {
         &self,
         point: [f32; 3],
     ) -> Result<(FieldDistance, [f32; 3]), QueryError> {
-        let slopes = |slopes: [i32; 3]| each(slopes, |slope| slope as f32 * SLOPE);
-        Ok(match self.place(point)? {
-            Place::Lattice(place) => {
-                let (bounds, gradient) = self.value_and_slopes(place)?;
-                (self.answer(self.within_field(bounds)), slopes(gradient))
-            }
-            Place::OfTree => return self.distance_and_gradient_of_tree(point),
-            Place::Beyond(place, beyond) => {
-                let (bounds @ [_, far], gradient) = self.value_and_slopes(place)?;
-                let found = self.answer(self.outside_field(bounds_beyond(bounds, beyond)));
-                (found, away(beyond, far as f32, slopes(gradient)))
-            }
-        })
+        let Some(place) = self.within_field(point) else {
+            return self.distance_and_gradient_beyond(point);
+        };
+        let (bounds, gradient) = self.bounds_and_slopes(place)?;
+        Ok((self.answer(self.in_input_units(bounds)), as_gradient(gradient)))
     }
 
+    #[cold]
     #[inline(never)]
-    fn distance_and_gradient_of_tree(
+    fn distance_and_gradient_beyond(
         &self,
         point: [f32; 3],
     ) -> Result<(FieldDistance, [f32; 3]), QueryError> {
-        let slopes = |slopes: [i32; 3]| each(slopes, |slope| slope as f32 * SLOPE);
-        if let Some(place) = self.within_units(point, self.units) {
-            let (bounds, gradient) = self.tree_value_and_slopes(place)?;
-            return Ok((self.answer(self.within_field(bounds)), slopes(gradient)));
-        }
-        let Place::Beyond(place, beyond) = self.beyond(point)? else {
-            return Err(QueryError::Unchecked);
-        };
-        let (bounds @ [_, far], gradient) = self.tree_value_and_slopes(place)?;
+        let (place, beyond) = self.beyond(point)?;
+        let (bounds @ [_, far], gradient) = self.bounds_and_slopes(place)?;
         let found = self.answer(self.outside_field(bounds_beyond(bounds, beyond)));
-        Ok((found, away(beyond, far as f32, slopes(gradient))))
+        Ok((found, away(beyond, far as f32, as_gradient(gradient))))
+    }
+
+    /// Of a place of the field, in units.
+    #[inline(always)]
+    fn bounds_and_slopes(&self, place: [u32; 3]) -> Result<([i32; 2], [i32; 3]), QueryError> {
+        match self.layout {
+            SdfLayout::Lattice => self.value_and_slopes(place),
+            SdfLayout::Tree => self.tree_bounds_and_slopes(self.root_within(place), place),
+        }
     }
 
     /// Whether the surface is at most `distance` from `point`, both in input units. Of a field of
@@ -165,7 +168,7 @@ impl Sdf<'_> {
     /// Bounds of the distance in input units, from those at the nearest place. `Sdf::open` made
     /// sure that no product overflows.
     #[inline(always)]
-    fn within_field(&self, [lower, upper]: [i32; 2]) -> [f32; 2] {
+    fn in_input_units(&self, [lower, upper]: [i32; 2]) -> [f32; 2] {
         let lower = lower.wrapping_sub(PLACE) as f32 * self.unit;
         let upper = upper.wrapping_add(PLACE) as f32 * self.unit;
         [lower - lower.abs() * ROUNDED, upper + upper.abs() * ROUNDED]
@@ -196,6 +199,11 @@ impl Sdf<'_> {
             Side::Undecided(Undecided::OnSurface)
         }
     }
+}
+
+#[inline(always)]
+fn as_gradient(slopes: [i32; 3]) -> [f32; 3] {
+    each(slopes, |slope| slope as f32 * SLOPE)
 }
 
 /// Bounds of the distance of a point outside of the field, from those at the nearest place of the

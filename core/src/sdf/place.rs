@@ -1,24 +1,12 @@
 //! From a point to whole units of the field.
 
-use super::format::{Sdf, SdfLayout};
+use super::format::Sdf;
 use crate::num::{each, greater, lesser};
 use crate::query::QueryError;
 
 /// A point farther than this many units from the field's origin is refused: its square, times
 /// three, is an f32.
 const FARTHEST: f32 = (1u64 << 60) as f32;
-
-/// Where a point is.
-pub(super) enum Place {
-    /// In a lattice: whole units from its corner 0, below the field's size on each axis.
-    Lattice([u32; 3]),
-    /// In a tree, or outside of it: functions of its own answer, so that a lattice's look-up keeps
-    /// its registers.
-    OfTree,
-    /// Outside: the nearest place of the field, and how far along each axis the point is beyond the
-    /// field, units: below 0 on the lower side.
-    Beyond([u32; 3], [f32; 3]),
-}
 
 /// Whether each coordinate is below a size.
 #[inline(always)]
@@ -27,27 +15,16 @@ pub(super) fn are_below([x, y, z]: [u32; 3], [width, depth, height]: [u32; 3]) -
 }
 
 impl Sdf<'_> {
-    /// Whole units nearest to a point: within half a unit along each axis, and a sixteenth for
-    /// rounding. A difference and a product lose at most two parts in 2^24 of fewer than 2^19
-    /// units.
+    /// Whole units nearest to a point of the field: within half a unit along each axis, and a
+    /// sixteenth for rounding. A difference and a product lose at most two parts in 2^24 of fewer
+    /// than 2^19 units. `None` of a point outside, and of -0 units.
     #[inline(always)]
-    pub(super) fn place(&self, point: [f32; 3]) -> Result<Place, QueryError> {
-        if let Some(whole) = self.within_units(point, self.lattice) {
-            return Ok(Place::Lattice(whole));
-        }
-        if self.layout == SdfLayout::Tree {
-            return Ok(Place::OfTree);
-        }
-        self.beyond(point)
-    }
-
-    /// Whole units of a point in a field of so many.
-    #[inline(always)]
-    pub(super) fn within_units(&self, point: [f32; 3], units: [u32; 3]) -> Option<[u32; 3]> {
-        let [x, y, z] = self.unrounded(point);
-        // A negative number becomes 0, and NaN is not above 0.
-        let whole = [x as u32, y as u32, z as u32];
-        (x >= 0.0 && y >= 0.0 && z >= 0.0 && are_below(whole, units)).then_some(whole)
+    pub(super) fn within_field(&self, point: [f32; 3]) -> Option<[u32; 3]> {
+        let units @ [x, y, z] = self.unrounded(point);
+        // The bits of numbers that are not negative rise with the numbers. Those of negative ones
+        // and of NaN are above those of any number.
+        let is_within = are_below(each(units, f32::to_bits), self.ends);
+        is_within.then(|| [x as u32, y as u32, z as u32])
     }
 
     /// The point in units from the origin, f32. Truncation rounds it to the nearest unit from
@@ -58,9 +35,14 @@ impl Sdf<'_> {
         [(x - a) * self.per_unit, (y - b) * self.per_unit, (z - c) * self.per_unit]
     }
 
+    /// The nearest place of the field, and how far along each axis the point is beyond it, units:
+    /// below 0 on the lower side.
     #[cold]
     #[inline(never)]
-    pub(super) fn beyond(&self, point @ [x, y, z]: [f32; 3]) -> Result<Place, QueryError> {
+    pub(super) fn beyond(
+        &self,
+        point @ [x, y, z]: [f32; 3],
+    ) -> Result<([u32; 3], [f32; 3]), QueryError> {
         if !point.iter().all(|x| x.is_finite()) {
             return Err(QueryError::NotFinite);
         }
@@ -71,10 +53,10 @@ impl Sdf<'_> {
         if units.iter().any(|x| x.abs() > FARTHEST) {
             return Err(QueryError::OutOfDomain);
         }
-        let ([x, y, z], [width, depth, height]) = (units, self.units);
+        let ([x, y, z], [width, depth, height]) = (units, self.units());
         let clamped = |x: f32, size: u32| (x as u32).min(size.wrapping_sub(1));
         let beyond = |x: f32, size: u32| lesser(x, greater(x - size as f32, 0.0));
-        Ok(Place::Beyond(
+        Ok((
             [clamped(x, width), clamped(y, depth), clamped(z, height)],
             [beyond(x, width), beyond(y, depth), beyond(z, height)],
         ))
@@ -89,7 +71,7 @@ impl Sdf<'_> {
     /// # Errors
     /// [`QueryError::NotFinite`]; [`QueryError::OutOfDomain`] outside of the field.
     pub fn units_of(&self, point: [f32; 3]) -> Result<[i32; 3], QueryError> {
-        match self.within_units(point, self.units) {
+        match self.within_field(point) {
             Some(whole) => Ok(each(whole, u32::cast_signed)),
             // The refusal of a point that is not finite.
             None => self.beyond(point).and(Err(QueryError::OutOfDomain)),

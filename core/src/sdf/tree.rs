@@ -11,19 +11,20 @@
 //! or an edge does.
 //!
 //! *Rounding.* All but the squares is exact up to the last shifts, which lose less than two units.
-//! Ways of more than 2^11 units are cut to that for the squares: what this changes is bounded by
+//! Ways are cut to 11 bits in a root cell for the squares, and to a bit less for every second
+//! halving: so the shifts of the bend are 8 or 7. What this changes is bounded by
 //! [`loss`](super::format::layout::tree::loss), and the builder adds it to the width.
 
 use super::format::Sdf;
 use super::format::layout::tree::{
-    ENTRY_BYTES, IS_LEAF, MOST_STEPS, PART, ROOT_BITS, SQUARE_BITS, VALUE_SHIFT,
+    AXES, IS_LEAF, MOST_LEVEL, PART, ROOT_BITS, SQUARE_BITS, VALUE_SHIFT,
 };
 use super::value::SLOPE_BITS;
 use crate::num::{each, greater};
 use crate::query::QueryError;
 
 /// Where a level of an axis stands in the sum of levels.
-const LEVEL_AT: [u32; 3] = [0, 8, 16];
+const LEVEL_AT: [u32; 3] = [0, 5, 10];
 
 /// A leaf, and a place in it.
 struct Leaf {
@@ -61,13 +62,14 @@ impl Leaf {
     fn value(&self, step: i32) -> i32 {
         let code = (self.word >> 29 & 3 | u32::from(self.last) << 2).cast_signed();
         let rise = self.rise();
-        let cut = SQUARE_BITS.saturating_sub(self.level);
+        let cut = SQUARE_BITS.wrapping_sub(self.level >> 1);
         let square = |x: i32| x.wrapping_mul(x);
-        let [x, y, z] = each(self.way, |x| square(x >> (cut & 31)));
-        let along = square(rise >> (cut.wrapping_add(5) & 31));
+        let [x, y, z] = each(self.way, |x| square(x >> cut));
+        let along = square(rise >> cut.wrapping_add(5));
         let squares = x.wrapping_add(y).wrapping_add(z).wrapping_sub(along);
-        let shift = ROOT_BITS.wrapping_sub(self.level).wrapping_sub(cut << 1);
-        let bend = self.six(18).wrapping_mul(squares) >> (shift & 31);
+        // ROOT_BITS - level - 2·cut.
+        let shift = (ROOT_BITS - 2 * SQUARE_BITS).wrapping_sub(self.level & 1);
+        let bend = self.six(18).wrapping_mul(squares) >> shift;
         let sum = code.wrapping_mul(step).wrapping_add(rise).wrapping_add(bend);
         (sum >> VALUE_SHIFT).wrapping_mul(PART) >> (15 - VALUE_SHIFT)
     }
@@ -89,19 +91,37 @@ impl Leaf {
 }
 
 impl Sdf<'_> {
+    /// The root cell of a place of a tree; `None` outside.
+    #[inline(always)]
+    pub(super) fn root(&self, place: [u32; 3]) -> Option<u32> {
+        let [x, y, z] = each(place, |place| place >> ROOT_BITS);
+        // A place has 16 bits more, and a row or layer at most 49 cells.
+        let (y, z) = (y.wrapping_mul(self.row), z.wrapping_mul(self.layer));
+        let is_within = x < self.row && y < self.layer && z < self.roots;
+        is_within.then(|| x.wrapping_add(y).wrapping_add(z))
+    }
+
+    /// The same of a place of the field.
+    #[inline(always)]
+    pub(super) fn root_within(&self, place: [u32; 3]) -> u32 {
+        let [x, y, z] = each(place, |place| place >> ROOT_BITS);
+        x.wrapping_add(y.wrapping_mul(self.row)).wrapping_add(z.wrapping_mul(self.layer))
+    }
+
     /// Lower and upper bound of the distance at a place of a tree, units.
-    #[inline(never)]
-    pub(super) fn tree_value(&self, place: [u32; 3]) -> Result<[i32; 2], QueryError> {
-        self.leaf(place).and_then(|leaf| self.of_leaf(&leaf)).ok_or(QueryError::Unchecked)
+    #[inline(always)]
+    pub(super) fn tree_bounds(&self, root: u32, place: [u32; 3]) -> Result<[i32; 2], QueryError> {
+        self.leaf(root, place).and_then(|leaf| self.of_leaf(&leaf)).ok_or(QueryError::Unchecked)
     }
 
     /// The bounds and the gradient, in 2^-15.
     #[inline(never)]
-    pub(super) fn tree_value_and_slopes(
+    pub(super) fn tree_bounds_and_slopes(
         &self,
+        root: u32,
         place: [u32; 3],
     ) -> Result<([i32; 2], [i32; 3]), QueryError> {
-        let leaf = self.leaf(place).ok_or(QueryError::Unchecked)?;
+        let leaf = self.leaf(root, place).ok_or(QueryError::Unchecked)?;
         Ok((self.of_leaf(&leaf).ok_or(QueryError::Unchecked)?, leaf.slopes()))
     }
 
@@ -113,48 +133,55 @@ impl Sdf<'_> {
         Some([greater(lower, self.least), greater(upper, self.least)])
     }
 
-    /// The leaf at a place of the field. `None` only of bytes that were not checked.
+    /// The leaf at a place of a root cell. `None` only of bytes that were not checked.
+    ///
+    /// Each child stands behind its node, so the descent ends whatever the bytes are.
     #[inline(always)]
-    fn leaf(&self, [x, y, z]: [u32; 3]) -> Option<Leaf> {
-        let root = |place: u32| place >> ROOT_BITS;
-        let mut at = root(x)
-            .wrapping_add(root(y).wrapping_mul(self.row))
-            .wrapping_add(root(z).wrapping_mul(self.layer));
+    fn leaf(&self, root: u32, [x, y, z]: [u32; 3]) -> Option<Leaf> {
+        let mut at = root;
         let (mut x, mut y, mut z) = (x << ROOT_BITS, y << ROOT_BITS, z << ROOT_BITS);
         let mut levels = 0u32;
-        for _ in 0..MOST_STEPS {
-            let [a, b, c, kind, last]: [u8; ENTRY_BYTES] = *self.entries.get(at as usize)?;
+        loop {
+            let entry @ &[_, _, _, kind, last] = self.entries.get(at as usize)?;
             if kind & IS_LEAF != 0 {
-                let level = LEVEL_AT.map(|at| levels >> at & 0xff);
+                let word = u32::from_le_bytes(*entry.first_chunk()?);
+                let level = LEVEL_AT.map(|at| levels >> at & MOST_LEVEL);
                 let [i, j, k] = level;
                 return Some(Leaf {
-                    word: u32::from_le_bytes([a, b, c, kind]),
+                    word,
                     last,
                     way: [from_middle(x, i), from_middle(y, j), from_middle(z, k)],
                     level: i.min(j).min(k),
                 });
             }
-            let mut child = 0;
-            if kind & 4 != 0 {
-                (child, z) = (z >> 31, z << 1);
-                levels = levels.wrapping_add(1 << LEVEL_AT[2]);
-            }
-            if kind & 2 != 0 {
-                (child, y) = (child << 1 | y >> 31, y << 1);
-                levels = levels.wrapping_add(1 << LEVEL_AT[1]);
-            }
-            if kind & 1 != 0 {
-                (child, x) = (child << 1 | x >> 31, x << 1);
-                levels = levels.wrapping_add(1 << LEVEL_AT[0]);
-            }
-            at = u32::from(u16::from_le_bytes([a, b])).wrapping_add(child);
+            // The next bit of an axis.
+            let next = |bits: &mut u32| {
+                let bit = *bits >> 31;
+                *bits <<= 1;
+                bit
+            };
+            // A case for each set of axes takes fewer instructions than a test for each axis.
+            let (child, halved) = match kind & AXES {
+                1 => (next(&mut x), [1, 0, 0]),
+                2 => (next(&mut y), [0, 1, 0]),
+                3 => (next(&mut y) << 1 | next(&mut x), [1, 1, 0]),
+                4 => (next(&mut z), [0, 0, 1]),
+                5 => (next(&mut z) << 1 | next(&mut x), [1, 0, 1]),
+                6 => (next(&mut z) << 1 | next(&mut y), [0, 1, 1]),
+                7 => ((next(&mut z) << 1 | next(&mut y)) << 1 | next(&mut x), [1, 1, 1]),
+                _ => return None,
+            };
+            let [i, j, k] = halved;
+            let [p, q, r] = LEVEL_AT;
+            levels = levels.wrapping_add(i << p | j << q | k << r);
+            let between = u32::from(u16::from_le_bytes(*entry.first_chunk()?));
+            at = at.wrapping_add(between).wrapping_add(child).wrapping_add(1);
         }
-        None
     }
 }
 
 /// From the bits of a place below its cell, the highest first, to units from the cell's middle.
 #[inline(always)]
 fn from_middle(bits: u32, level: u32) -> i32 {
-    ((bits ^ 1 << 31).cast_signed() >> ROOT_BITS) >> (level & 31)
+    (bits >> (32 - ROOT_BITS)).cast_signed().wrapping_sub(1 << (ROOT_BITS - 1)) >> level
 }

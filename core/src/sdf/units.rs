@@ -39,28 +39,36 @@ impl Sdf<'_> {
             let [lower, upper] = self.value(whole)?;
             return Ok(UnitDistance { lower, upper });
         }
-        if self.layout == SdfLayout::Tree {
-            return self.distance_of_tree_in_units(place);
+        match self.layout {
+            SdfLayout::Lattice => self.distance_beyond_in_units(&place),
+            SdfLayout::Tree => self.distance_of_tree_in_units(&place),
         }
-        self.distance_beyond(place)
     }
 
     #[cold]
     #[inline(never)]
-    fn distance_beyond(&self, place: [i32; 3]) -> Result<UnitDistance, QueryError> {
+    fn distance_beyond_in_units(&self, place: &[i32; 3]) -> Result<UnitDistance, QueryError> {
         let (nearest, beyond) = self.nearest(place)?;
         Ok(outside(self.value(nearest)?, beyond))
     }
 
+    /// The distance of any place of a tree.
     #[inline(never)]
-    fn distance_of_tree_in_units(&self, place: [i32; 3]) -> Result<UnitDistance, QueryError> {
-        let whole = each(place, i32::cast_unsigned);
-        if are_below(whole, self.units) {
-            let [lower, upper] = self.tree_value(whole)?;
-            return Ok(UnitDistance { lower, upper });
-        }
-        let (nearest, beyond) = self.nearest(place)?;
-        Ok(outside(self.tree_value(nearest)?, beyond))
+    pub(super) fn distance_of_tree_in_units(
+        &self,
+        place: &[i32; 3],
+    ) -> Result<UnitDistance, QueryError> {
+        let whole = each(*place, i32::cast_unsigned);
+        let (root, whole, beyond) = match self.root(whole) {
+            Some(root) => (root, whole, [0; 2]),
+            None => {
+                let (nearest, beyond) = self.nearest(place)?;
+                (self.root(nearest).ok_or(QueryError::Unchecked)?, nearest, beyond)
+            }
+        };
+        let bounds @ [lower, upper] = self.tree_bounds(root, whole)?;
+        let [_, sum] = beyond;
+        Ok(if sum == 0 { UnitDistance { lower, upper } } else { outside(bounds, beyond) })
     }
 
     /// The gradient at a place, 32,768 for 1: the direction in which the distance rises the most.
@@ -77,18 +85,20 @@ impl Sdf<'_> {
         if are_below(whole, self.lattice) {
             return self.slopes(whole);
         }
-        if self.layout == SdfLayout::Tree && are_below(whole, self.units) {
-            return Ok(self.tree_value_and_slopes(whole)?.1);
+        match self.root(whole) {
+            Some(root) if self.layout == SdfLayout::Tree => {
+                Ok(self.tree_bounds_and_slopes(root, whole)?.1)
+            }
+            _ => Err(QueryError::OutOfDomain),
         }
-        Err(QueryError::OutOfDomain)
     }
 
     /// The nearest place of the field, and how far the place is beyond: the greatest of the
     /// coordinates' distances, and their sum.
     #[inline(always)]
-    fn nearest(&self, place: [i32; 3]) -> Result<([u32; 3], [i32; 2]), QueryError> {
+    fn nearest(&self, place: &[i32; 3]) -> Result<([u32; 3], [i32; 2]), QueryError> {
         let (mut nearest, mut greatest, mut sum) = ([0; 3], 0, 0);
-        for ((near, at), units) in nearest.iter_mut().zip(place).zip(self.units) {
+        for ((near, &at), units) in nearest.iter_mut().zip(place).zip(self.units()) {
             if at.unsigned_abs() > MOST_BASE.unsigned_abs() {
                 return Err(QueryError::OutOfDomain);
             }

@@ -70,7 +70,7 @@ pub fn any_tree(seed: u64, kind: SdfKind, roots: [u8; 3], leaves: usize, unit: f
             continue;
         }
         let first = entries.len();
-        let [a, b] = u16::try_from(first).expect("a small tree").to_le_bytes();
+        let [a, b] = u16::try_from(first - number - 1).expect("a small tree").to_le_bytes();
         entries[number] = [a, b, 0, axes, 0];
         for (axis, level) in levels.iter_mut().enumerate() {
             *level += u32::from(is_halved(axis));

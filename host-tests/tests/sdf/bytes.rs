@@ -122,9 +122,12 @@ fn entries_that_are_no_tree_are_named() {
     let no_tree = wrong(Contradiction::FieldTree);
     for &node in &nodes {
         let [a, b, _, kind, _] = field.entries()[node];
-        // A first child that is another: the node itself, one before, one after, none.
+        // A first child that is another: one before, one after, nearer, farther, none.
         let first = u16::from_le_bytes([a, b]);
-        for other in [node as u16, first - 1, first + 1, 0, u16::MAX] {
+        for other in [first.wrapping_sub(1), first + 1, first / 2, first + node as u16, u16::MAX] {
+            if other == first {
+                continue;
+            }
             let edit = |section: &mut [u8]| {
                 section[entry(node)..][..2].copy_from_slice(&other.to_le_bytes());
             };
@@ -158,9 +161,9 @@ fn a_tree_that_halves_an_axis_more_often_than_it_has_bits_is_refused() {
         (header.layout, header.steps, header.step) = (SdfLayout::Tree, count as u8 + 1, 1);
         let mut section = header.write().to_vec();
         // Each node's first child is the next node.
-        section.extend([1, 0, 0, 2, 0]);
-        for node in 1..count {
-            section.extend([2 * node as u8 + 1, 0, 0, 2, 0]);
+        section.extend([0, 0, 0, 2, 0]);
+        for _ in 1..count {
+            section.extend([1, 0, 0, 2, 0]);
             section.extend([0, 0, 0, tree::IS_LEAF, 0]);
         }
         section.extend([[0, 0, 0, tree::IS_LEAF, 0]; 2].as_flattened());

@@ -71,10 +71,12 @@ impl Field {
         }
         let [x, y, _] = self.cells;
         let [i, j, k] = root.map(|x| x as usize);
-        let mut entry = self.entries[i + x * (j + y * k)];
+        let mut at = i + x * (j + y * k);
+        let mut entry = self.entries[at];
         let (mut middle, mut half) = (root.map(|x| (x + 0.5) * 65_536.0), [32_768.0; 3]);
         while entry[3] < 128 {
-            let (mut child, mut weight) = (usize::from(entry[0]) + 256 * usize::from(entry[1]), 1);
+            let between = usize::from(entry[0]) + 256 * usize::from(entry[1]);
+            let (mut child, mut weight) = (at + 1 + between, 1);
             for k in (0..3).filter(|k| entry[3] >> k & 1 == 1) {
                 half[k] /= 2.0;
                 let is_upper = place[k] >= middle[k];
@@ -82,7 +84,8 @@ impl Field {
                 child += usize::from(is_upper) * weight;
                 weight *= 2;
             }
-            entry = self.entries[child];
+            at = child;
+            entry = self.entries[at];
         }
         let bits = (0..5).map(|k| u64::from(entry[k]) << (8 * k)).sum::<u64>();
         let number = |at: u32| ((bits >> at & 63) as f64 + 32.0).rem_euclid(64.0) - 32.0;

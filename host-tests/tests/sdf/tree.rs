@@ -38,7 +38,7 @@ impl Leaf {
                     bit *= 2;
                 }
             }
-            number = usize::from(a) + 256 * usize::from(b) + child;
+            number += 1 + usize::from(a) + 256 * usize::from(b) + child;
             steps += 1;
         }
     }
@@ -140,7 +140,7 @@ fn steps_are_those_of_the_deepest_leaf() {
         // A node stands before its children.
         let mut depth = vec![1; field.entries().len()];
         for (number, &[a, b, _, kind, _]) in field.entries().iter().enumerate() {
-            let first = usize::from(a) + 256 * usize::from(b);
+            let first = number + 1 + usize::from(a) + 256 * usize::from(b);
             let count = if kind < 128 { 1 << kind.count_ones() } else { 0 };
             for child in first..first + count {
                 depth[child] = depth[number] + 1;

@@ -51,13 +51,15 @@ impl Bent {
     }
 
     /// How far the value of a query may be below and above the function, units. Squares are those
-    /// of ways cut to 11 bits along the longest side, and shifts round down.
+    /// of ways cut to 11 bits along the longest side of a root cell, one less for every second time
+    /// that it is halved, and shifts round down.
     pub(super) fn losses(&self) -> [f64; 2] {
         let largest = self.middle.max_element();
-        let cut = (largest / 2048.0).max(1.0);
+        let halvings = (32_768.0 / largest).log2().round();
+        let cut = 16.0 / (halvings / 2.0).floor().exp2();
         let ways: f64 = self.middle.to_array().iter().map(|x| 2.0 * x / cut + 1.0).sum();
         let along = 2.0 * self.gradient.abs().dot(self.middle) / (32.0 * cut) + 1.0;
-        let squares = if cut > 1.0 { ways + along } else { along };
+        let squares = ways + along;
         let bent = PART * self.curvature.abs() * squares * cut * cut / (2.0 * largest);
         // The bend's shift, the sum's of four bits, and the last.
         [bent + PART * 16.0 + 1.0, bent]

@@ -68,7 +68,7 @@ fn leaves(entries: &[[u8; 5]], roots: [usize; 3]) -> Result<Vec<Leaf>, String> {
         if sides == leaf.sides || sides.min_element() < 512.0 || seen > entries.len() {
             return Err("a node that halves no axis, or one too often".to_owned());
         }
-        let mut child = usize::from(a) + 256 * usize::from(b);
+        let mut child = leaf.entry + 1 + usize::from(a) + 256 * usize::from(b);
         let ups = |axis: usize| if halved[axis] { vec![0.0, 1.0] } else { vec![0.0] };
         for up_z in ups(2) {
             for up_y in ups(1) {

@@ -78,7 +78,7 @@ pub(super) fn entries(domain: &Domain, choices: &[Choice]) -> Option<Laid> {
                 continue;
             }
             let first = entries.len();
-            let [a, b] = u16::try_from(first).ok()?.to_le_bytes();
+            let [a, b] = u16::try_from(first - number - 1).ok()?.to_le_bytes();
             entries[number] = [a, b, 0, axes as u8, 0];
             let parts: Vec<Box3> = of.parts(axes).collect();
             entries.resize(first + parts.len(), [0; ENTRY_BYTES]);

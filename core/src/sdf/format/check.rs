@@ -58,7 +58,8 @@ impl<'a> Sdf<'a> {
         let (head, rest) = ok!(data.split_at_checked(SDF_BYTES), malformed);
         let header = Bytes(head);
         let books = ok!(books(header), malformed);
-        let [x, y, z, steps] = ok!(header.array::<4>(field::CELLS), malformed);
+        let cells @ [x, y, z] = ok!(header.array::<3>(field::CELLS), malformed);
+        let [steps] = ok!(header.array::<1>(field::STEPS), malformed);
         let [kind, layout] = ok!(header.array::<2>(field::KIND), malformed);
         let Some(layout) = SdfLayout::from_code(layout) else { return Err(OpenError::Reserved) };
         let is_tree = matches!(layout, SdfLayout::Tree);
@@ -105,9 +106,9 @@ impl<'a> Sdf<'a> {
         let (x, y, z) = (x as usize, y as usize, z as usize);
         // At most 2^24 each.
         let corners = if is_tree { 0 } else { (x + 1) * (y + 1) * (z + 1) };
-        let (codes, cells) = ok!(rest.split_at_checked(corners), malformed);
-        let (entries, over) = cells.as_chunks::<{ tree::ENTRY_BYTES }>();
-        let (entries, errors) = if is_tree { (entries, over) } else { (&[] as &[_], cells) };
+        let (codes, rest) = ok!(rest.split_at_checked(corners), malformed);
+        let (entries, over) = rest.as_chunks::<{ tree::ENTRY_BYTES }>();
+        let (entries, errors) = if is_tree { (entries, over) } else { (&[] as &[_], rest) };
         let is_whole = match is_tree {
             true => over.is_empty() && entries.len() <= tree::MOST_ENTRIES,
             false => errors.len() == x * y * z,
@@ -130,13 +131,19 @@ impl<'a> Sdf<'a> {
             step: step as i32,
             least: if matches!(kind, SdfKind::Signed) { i32::MIN } else { 0 },
             lattice: if is_tree { [0; 3] } else { units },
-            units,
+            ends: [
+                (units[0] as f32).to_bits(),
+                (units[1] as f32).to_bits(),
+                (units[2] as f32).to_bits(),
+            ],
             row: row as u32,
             layer: (row * rows) as u32,
             cell_layer: (x * y) as u32,
+            roots: (x * y * z) as u32,
             kind,
             layout,
             steps,
+            cells,
         })
     }
 }

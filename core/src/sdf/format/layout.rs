@@ -25,9 +25,10 @@ pub const fn value_loss(step: u16) -> u32 {
 
 /// The numbers of a tree: entries of five bytes.
 ///
-/// A node: the number of its first child in bytes 0 and 1, the axes that it halves in byte 3 (bits
-/// 0 to 2: x, y, z), 0 in bytes 2 and 4. Its children stand one after the other; those on the upper
-/// side of an axis after those on the lower, x fastest among the axes that are halved.
+/// A node: the number of entries between it and its first child in bytes 0 and 1, the axes that it
+/// halves in byte 3 (bits 0 to 2: x, y, z), 0 in bytes 2 and 4. Its children stand one after the
+/// other; those on the upper side of an axis after those on the lower, x fastest among the axes
+/// that are halved.
 ///
 /// A leaf: 40 bits, from the lowest: three entries g of the gradient, the curvature k, six bits
 /// each with a sign; the width's number in the book, five bits; two bits of the code, 1, the other
@@ -43,7 +44,7 @@ pub mod tree {
     pub const MOST_LEVEL: u32 = 7;
     /// Most entries that a question reads: a node halves at least one of three axes.
     pub const MOST_STEPS: u8 = 3 * MOST_LEVEL as u8 + 1;
-    /// Most entries: a child's number has 16 bits.
+    /// Most entries: the number of those before a child has 16 bits.
     pub const MOST_ENTRIES: usize = 1 << 16;
     /// Bit of a leaf in byte 3.
     pub const IS_LEAF: u8 = 1 << 7;
@@ -61,7 +62,7 @@ pub mod tree {
     pub const PART: i32 = 1057;
     /// See [`PART`].
     pub const PART_OF: i32 = 1 << 15;
-    /// Ways of more than 11 bits are cut for the squares: by this less the level.
+    /// Bits that the ways are cut by for the squares, less half the level.
     pub const SQUARE_BITS: u32 = 4;
     /// What the sum is shifted by before it is multiplied by [`PART`], so that the product fits.
     pub const VALUE_SHIFT: u32 = 4;
@@ -75,11 +76,11 @@ pub mod tree {
     /// A square of n whole steps of 2^cut stands for one of less than (n + 1)², n below 2^11, or
     /// along the gradient below 2^13. The last shifts lose less than 1.6 units.
     pub fn loss(curvature: i32, level: u32) -> [u32; 2] {
-        let cut = SQUARE_BITS.saturating_sub(level);
+        let cut = SQUARE_BITS - level / 2;
         // Of the ways, of which one is 2^15 over the level at most, in steps; and along the
         // gradient.
         let most = 1u32 << (15 - level - cut);
-        let ways = if cut == 0 { 0 } else { 3 * (2 * most + 1) };
+        let ways = 3 * (2 * most + 1);
         let along = 2 * 3 * most + 1;
         let bend = curvature.unsigned_abs();
         let part = |squares: u32| (bend * squares).div_ceil(1 << (16 - level - 2 * cut - 5));

@@ -32,6 +32,7 @@ pub(super) fn steps(entries: &[[u8; ENTRY_BYTES]], roots: u32) -> Option<u8> {
         }
         let ([a, b, c, kind, e], mut levels) = (*entries.get(open.next as usize)?, open.levels);
         open.next = open.next.wrapping_add(1);
+        let after = open.next;
         deepest = deepest.max(depth);
         if kind & IS_LEAF != 0 {
             continue;
@@ -45,7 +46,7 @@ pub(super) fn steps(entries: &[[u8; ENTRY_BYTES]], roots: u32) -> Option<u8> {
                 return None;
             }
         }
-        if u32::from(u16::from_le_bytes([a, b])) != end {
+        if u32::from(u16::from_le_bytes([a, b])).wrapping_add(after) != end {
             return None;
         }
         let next = end;

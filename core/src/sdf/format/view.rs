@@ -182,17 +182,21 @@ pub struct Sdf<'a> {
     /// Units along each axis of a lattice; 0 of a tree. So a question of a lattice is sure of its
     /// layout by the comparison that it makes anyway.
     pub(in crate::sdf) lattice: [u32; 3],
-    /// Units along each axis.
-    pub(in crate::sdf) units: [u32; 3],
+    /// The bits of the numbers of units along each axis, as f32.
+    pub(in crate::sdf) ends: [u32; 3],
     /// Corners of a row, or root cells of a tree's.
     pub(in crate::sdf) row: u32,
     /// Corners of a layer, or root cells of a tree's.
     pub(in crate::sdf) layer: u32,
-    /// Cells of a layer.
+    /// Cells of a layer of a lattice.
     pub(in crate::sdf) cell_layer: u32,
+    /// Root cells of a tree.
+    pub(in crate::sdf) roots: u32,
     pub(in crate::sdf) kind: SdfKind,
     pub(in crate::sdf) layout: SdfLayout,
     pub(in crate::sdf) steps: u8,
+    /// Cells along each axis, or root cells.
+    pub(in crate::sdf) cells: [u8; 3],
 }
 
 impl Sdf<'_> {
@@ -217,8 +221,13 @@ impl Sdf<'_> {
 
     /// Cells along each axis: of a tree its root cells.
     pub fn cells(&self) -> [u32; 3] {
+        each(self.cells, u32::from)
+    }
+
+    /// Units along each axis.
+    pub(in crate::sdf) fn units(&self) -> [u32; 3] {
         let bits = self.layout.cell_bits();
-        each(self.units, |units| units >> bits)
+        each(self.cells(), |cells| cells << bits)
     }
 
     /// A unit in input units, rounded to nearest. A cell of a lattice has 2048 units along each
@@ -235,7 +244,7 @@ impl Sdf<'_> {
     /// The box of the points that round into the field: the origin, half a unit below corner 0 of
     /// the lattice along each axis, and the opposite corner. Input units, rounded to nearest.
     pub fn bounds(&self) -> [[f32; 3]; 2] {
-        let [x, y, z] = self.units;
+        let [x, y, z] = self.units();
         let [a, b, c] = self.origin;
         let end = |at: f32, units: u32| at + units as f32 * self.unit;
         [self.origin, [end(a, x), end(b, y), end(c, z)]]
@@ -256,7 +265,7 @@ impl Sdf<'_> {
             step: self.step as u16,
             kind: self.kind,
             layout: self.layout,
-            cells: each(self.cells(), |cells| cells as u8),
+            cells: self.cells,
             steps: self.steps,
             low,
             high,
