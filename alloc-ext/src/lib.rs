@@ -45,6 +45,7 @@ mod setters;
 pub mod builder;
 pub mod bvh;
 pub mod check;
+mod clock;
 pub mod collapse;
 pub mod counted;
 pub mod curve;

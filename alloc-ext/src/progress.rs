@@ -65,6 +65,25 @@ pub enum Stage {
     Done,
 }
 
+impl Stage {
+    /// In words.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Loading => "reading and repairing",
+            Self::Collapsing { .. } => "collapsing edges",
+            Self::Certifying => "certifying distances",
+            Self::BoxTree => "box tree",
+            Self::Triboxes => "triboxes",
+            Self::Sdf => "distance field",
+            Self::Shrinking { .. } => "shrinking hulls",
+            Self::Polishing { .. } => "polishing hulls",
+            Self::Curve => "curves",
+            Self::Done => "done",
+        }
+    }
+}
+
 /// A callback for one build. It gets what is done and the part of the work that is done, from 0 to
 /// 1, and tells whether to go on. The part never falls. Once it asks to end, it is not called
 /// again.

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use meshsweep::curve::{CurveOptions, build, read_csv};
 use meshsweep::progress::Watch;
 use meshsweep_core::{
-    Blob, Budget, Bvh, BvhWithSdf, Curve, DeformableHull, Hull, Sdf, SdfKind, TightHulls, Triboxes,
+    Blob, Budget, Bvh, BvhWithSdf, Curve, DeformableHull, Hull, Sdf, SdfKind, SectionKind,
+    TightHulls, Triboxes,
 };
 use meshsweep_counted::answers::{of_fixtures, of_kept};
 use meshsweep_host_tests::golden::{
@@ -195,13 +196,30 @@ fn answers_have_the_committed_bits() {
 }
 
 #[test]
-fn answers_about_blobs_of_an_earlier_packer_keep_their_bits() {
+fn answers_about_kept_blobs_keep_their_bits() {
     let here = of_kept(&folder().join("kept")).expect("all open");
     let committed = String::from_utf8(read("kept/answers.txt")).expect("text");
     for (here, committed) in here.lines().zip(committed.lines()) {
         assert_eq!(here, committed, "a kernel computes something else than before");
     }
     assert_eq!(here.lines().count(), committed.lines().count());
+}
+
+#[test]
+fn every_kind_of_section_is_in_a_kept_blob_that_is_asked() {
+    let asked = String::from_utf8(read("kept/answers.txt")).expect("text");
+    let mut kinds = Vec::new();
+    for entry in std::fs::read_dir(folder().join("kept")).expect("a folder") {
+        let name = entry.expect("listed").file_name().into_string().expect("a name");
+        if name.ends_with(".msw") {
+            assert!(asked.contains(&format!("{name} ")), "{name} is not asked");
+            let bytes = read(&format!("kept/{name}"));
+            kinds.extend(Blob::open(&bytes).expect("opens").sections().map(|section| section.kind));
+        }
+    }
+    for kind in SectionKind::ALL {
+        assert!(kinds.contains(&kind), "no kept blob has {}", kind.name());
+    }
 }
 
 #[test]

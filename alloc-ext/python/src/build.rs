@@ -104,13 +104,13 @@ impl Options {
     ) -> PyResult<Model> {
         let (mut raised, stop) = (None, AtomicBool::new(false));
         let work = || {
-            let told = |stage, part| {
+            let told = |stage: Stage, part| {
                 if stop.load(Ordering::Relaxed) {
                     return ControlFlow::Break(());
                 }
                 let told = Python::attach(|py| {
                     py.check_signals()?;
-                    let tell = |to: &Py<PyAny>| to.call1(py, (stage_name(stage), part)).map(drop);
+                    let tell = |to: &Py<PyAny>| to.call1(py, (stage.name(), part)).map(drop);
                     progress.as_ref().map_or(Ok(()), tell)
                 });
                 match told {
@@ -128,23 +128,6 @@ impl Options {
             (Some(error), Err(_)) => Err(error),
             (_, built) => Model::built(built.map_err(|error| of_build(&error))?),
         }
-    }
-}
-
-/// What a build is doing, in words.
-fn stage_name(stage: Stage) -> &'static str {
-    match stage {
-        Stage::Loading => "reading and repairing",
-        Stage::Collapsing { .. } => "collapsing edges",
-        Stage::Certifying => "certifying distances",
-        Stage::BoxTree => "box tree",
-        Stage::Triboxes => "triboxes",
-        Stage::Sdf => "distance field",
-        Stage::Shrinking { .. } => "shrinking hulls",
-        Stage::Polishing { .. } => "polishing hulls",
-        Stage::Curve => "curves",
-        Stage::Done => "done",
-        _ => "building",
     }
 }
 

@@ -12,6 +12,7 @@ use super::source;
 use super::store::{OnGrid, store};
 use super::stored_triangles::{Copies, StoredTriangles};
 use super::unfold::unfold;
+use crate::clock::Instant;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh, Wire};
@@ -26,7 +27,7 @@ use meshsweep_core::internal::bvh::tree::format::layout::{
 use meshsweep_core::internal::geom::fan::WIDTH;
 use meshsweep_core::internal::num::up_to_f32;
 use rayon::prelude::*;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The questions that a box tree serves, and how it stores vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,6 +2,7 @@
 
 use super::build::nodes;
 use super::read::Polyline;
+use crate::clock::Instant;
 use crate::emit::Sections;
 use crate::error::{BuildError, CurveError};
 use crate::geom::Bounds;
@@ -17,7 +18,7 @@ use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
 use meshsweep_core::{SectionKind, Zone};
 use robust::{Coord, orient2d};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How points are stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -6,6 +6,7 @@ use super::groups::{base_groups, sort_base};
 use super::levels::{certify, levels};
 use super::tables::{SplitRecord, Tables};
 use super::wires::wires_off_surface;
+use crate::clock::Instant;
 use crate::collapse::{Conditions, Engine, History, Priority, Stuck, VertexOrder};
 use crate::emit::Sections;
 use crate::error::BuildError;
@@ -18,7 +19,7 @@ use meshsweep_core::SectionKind;
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::hull::format::layout::{MAX_RING, START_GROUP};
 use meshsweep_core::internal::num::{Radius8, Radius16, sum_up, up_to_f32};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The levels of a hierarchy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,6 +6,7 @@
 
 mod content;
 
+use crate::clock::Instant;
 use crate::error::BuildError;
 use crate::mesh::{
     FORMATS, Input, KeyFrame, Mesh, MeshError, RawMesh, RepairReport, Unit, key_frame, read_bytes,
@@ -15,7 +16,7 @@ use crate::surface::{VertexBits, snap};
 use content::Content;
 use meshsweep_core::internal::format::layout::MAGIC;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A mesh that a blob can be built from.
 #[derive(Clone, Debug)]

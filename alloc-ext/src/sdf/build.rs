@@ -9,6 +9,7 @@ use super::tree;
 use super::truth::{Side, Truth};
 use super::widths::Widths;
 use crate::bvh::FileSides;
+use crate::clock::Instant;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::geom::Bounds;
@@ -20,7 +21,7 @@ use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
 use meshsweep_core::{SdfKind, SdfLayout, SectionKind};
 use rayon::prelude::*;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Bytes of a field unless told otherwise.
 pub const BYTES: u32 = 16 << 10;

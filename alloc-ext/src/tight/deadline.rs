@@ -1,7 +1,7 @@
 //! When a search has to end.
 
+use crate::clock::Instant;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 /// A time, or the caller's request to end before.
 #[derive(Clone, Copy, Debug, Default)]

@@ -7,6 +7,7 @@ use super::proof::Obstacle;
 use super::report::{Outcome, Report};
 use super::search::{CandidateHull, HullSearch};
 use crate::bvh::MAX_TRIANGLES;
+use crate::clock::Instant;
 use crate::error::BuildError;
 use crate::geom::{Bounds, crosses_itself};
 use crate::mesh::{Input, Mesh};
@@ -16,7 +17,6 @@ use glam::{DVec3, Vec3};
 use meshsweep_core::internal::num::exp2;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 /// Half-steps of the hull's grid up to which a margin needs no search. Rounding to `f32` moves a
 /// vertex by √3 of them at most, and edits keep four.

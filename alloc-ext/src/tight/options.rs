@@ -64,7 +64,7 @@ pub struct Options {
     /// The result depends on the effort, and not on the machine.
     pub effort: f64,
     /// About when to stop; `None`: never. The result then depends on the machine: at worst it is
-    /// the mesh's bounding box.
+    /// the mesh's bounding box. A target without a clock ignores it.
     pub time_limit: Option<Duration>,
     /// Coordinate format of the vertices. [`VertexBits::Auto`] stands for single precision.
     pub vertex_bits: VertexBits,

@@ -4,13 +4,13 @@ use super::cost::{Features, Shape};
 use super::field::to_surface;
 use super::setting::{How, Question, Setting};
 use crate::builder::Recipe;
+use crate::clock::Instant;
 use crate::distances::Distances;
 use meshsweep_core::{
     Blob, Budget, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Hint, QueryError,
     ScratchEntry, Work,
 };
 use std::hint::black_box;
-use std::time::Instant;
 
 /// Entries of a coherent query's front.
 const FRONT: usize = 128;

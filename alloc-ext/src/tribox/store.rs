@@ -7,6 +7,7 @@ use super::lattice::Lattice;
 use super::level::{Level, level_watched};
 use super::orient::Turn;
 use super::split::{Hierarchy, Node, SplitOptions};
+use crate::clock::Instant;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::{Input, Mesh};
@@ -24,7 +25,7 @@ use meshsweep_core::internal::tribox::format::layout::{
     TRIBOXES_BYTES, TRIBOXES_SOLID, TRIBOXES_TURNED,
 };
 use meshsweep_core::{Blob, Bvh, Tribox};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How many triboxes to make, and in which frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,10 +26,21 @@ const FIXTURES: [(&str, Answers); 9] = [
     ("bend.msw", |name, blob| answers::<deform::DeformableHull<'_>>(name, blob)),
 ];
 
-/// Box trees that no builder makes any more: when the packer changes, the kernels still have to
-/// give the answers of before about the same blobs.
-const KEPT: [&str; 5] =
-    ["bracket_tree.msw", "groove.msw", "single_tree.msw", "soup_tree.msw", "torus_tree.msw"];
+/// Blobs of builders of before, with every kind of section: later readers still have to give the
+/// same answers about them.
+const KEPT: [(&str, Answers); 11] = [
+    ("bracket_tree.msw", tree_answers),
+    ("groove.msw", tree_answers),
+    ("single_tree.msw", tree_answers),
+    ("soup_tree.msw", tree_answers),
+    ("torus_tree.msw", tree_answers),
+    ("sides.msw", tree_answers),
+    ("bend.msw", |name, blob| answers::<deform::DeformableHull<'_>>(name, blob)),
+    ("triboxes.msw", |name, blob| answers::<triboxes::Triboxes<'_>>(name, blob)),
+    ("hulls.msw", |name, blob| answers::<tight::Hulls<'_>>(name, blob)),
+    ("zones.msw", |name, blob| answers::<curve::Curve<'_>>(name, blob)),
+    ("field.msw", |name, blob| answers::<sdf::Sdf<'_>>(name, blob)),
+];
 
 /// A line for each committed blob and kind of query: the blob's name, the kind, and a hash of all
 /// answers' bits.
@@ -37,12 +48,7 @@ const KEPT: [&str; 5] =
 /// # Errors
 /// A file that cannot be read, or the core's refusal of a blob.
 pub fn of_fixtures(folder: &Path) -> Result<String, String> {
-    let mut lines = String::new();
-    for (name, answers) in FIXTURES {
-        let answers = answers(name, &read(folder, name)?);
-        lines += &answers.map_err(|refused| format!("{name} is refused: {refused:?}"))?;
-    }
-    Ok(lines)
+    of(&FIXTURES, folder)
 }
 
 /// The same lines for the kept blobs. The folder is theirs.
@@ -50,9 +56,13 @@ pub fn of_fixtures(folder: &Path) -> Result<String, String> {
 /// # Errors
 /// A file that cannot be read, or the core's refusal of a blob.
 pub fn of_kept(folder: &Path) -> Result<String, String> {
+    of(&KEPT, folder)
+}
+
+fn of(blobs: &[(&str, Answers)], folder: &Path) -> Result<String, String> {
     let mut lines = String::new();
-    for name in KEPT {
-        let answers = tree_answers(name, &read(folder, name)?);
+    for (name, answers) in blobs {
+        let answers = answers(name, &read(folder, name)?);
         lines += &answers.map_err(|refused| format!("{name} is refused: {refused:?}"))?;
     }
     Ok(lines)

@@ -59,14 +59,20 @@ pub fn files() -> Vec<(String, Vec<u8>)> {
          | `answers.txt` | a hash of the answers to each kind of query: other bits are noticed |\n\
          | `part.svg` | the picture of `README.md`, by `cargo xtask picture` |\n\
          \n## kept/\n\n\
-         Box trees of an earlier packer. No command makes them any more. They pin the kernels when the\n\
-         builder packs leaves in another way: about these blobs, answers must keep their bits.\n\n\
+         Blobs that every later version reads, with the same answers to the bit: every kind of section is\n\
+         in one of them. No command makes them again. The first five hold box trees of an earlier packer.\n\n\
          | file | holds |\n| --- | --- |\n\
          | `bracket_tree.msw` | the box tree of `bracket.stl` |\n\
          | `groove.msw` | the box tree of `groove.obj`, with all sections |\n\
          | `single_tree.msw` | the box tree of `torus(2.0, 0.75, 16, 10)`, vertices as f32 |\n\
          | `soup_tree.msw` | the box tree of a torus with holes, beside needles and triangles without area, with normal cones |\n\
          | `torus_tree.msw` | the box tree of `torus(2.0, 0.75, 20, 12)` |\n\
+         | `sides.msw` | the box tree of two boxes that overlap and of one inside out: triangles turned, and without a side |\n\
+         | `bend.msw` | the hull hierarchy of `torus(2.0, 0.75, 16, 8)` and a key frame, bent |\n\
+         | `triboxes.msw` | triboxes of `torus.ply` |\n\
+         | `hulls.msw` | tight hulls of `bracket.stl` |\n\
+         | `zones.msw` | two circles, one of them the border of an exclusion zone |\n\
+         | `field.msw` | the signed distance field of `groove.obj` in 8 KiB |\n\
          | `answers.txt` | a hash of the answers to each kind of query |\n\
          \n## evil/\n\n\
          Files that must be refused, by the named variant of `MeshError`, or mended. \"No solid\": `repair`\n\

@@ -44,6 +44,7 @@ const CORE: [(&str, &[&str]); 12] = [
 
 /// Folders that all structures of the builder may use.
 const BENEATH: &[&str] = &[
+    "clock",
     "counted",
     "number",
     "emit",
@@ -62,10 +63,11 @@ const BENEATH: &[&str] = &[
 /// The same of `alloc-ext/src`. `emit` is beneath: it knows sections and no builder. `counted` and
 /// `number` print numbers, `error` says why there is no blob, `progress` tells how much is done and
 /// asks whether to go on, `pose` makes matrices of quaternions, `random` gives the same numbers in
-/// every run. `cut`, `trade` and `builder` are above: they know all structures. `load` makes a
-/// clean mesh of a file for them. `check` proves the others' work and shares nothing with them but
-/// meshes. `trade` measures distances by it.
-const BUILDER: [(&str, &[&str]); 27] = [
+/// every run, `clock` tells the time. `cut`, `trade` and `builder` are above: they know all
+/// structures. `load` makes a clean mesh of a file for them. `check` proves the others' work and
+/// shares nothing with them but meshes. `trade` measures distances by it.
+const BUILDER: [(&str, &[&str]); 28] = [
+    ("clock", &[]),
     ("counted", &[]),
     ("number", &[]),
     ("emit", &[]),
@@ -79,14 +81,15 @@ const BUILDER: [(&str, &[&str]); 27] = [
     ("distances", &[]),
     ("progress", &["error"]),
     ("surface", &["counted", "error", "geom", "lp", "mesh"]),
-    ("load", &["error", "mesh", "surface"]),
+    ("load", &["clock", "error", "mesh", "surface"]),
     ("collapse", &["counted", "geom", "lp", "mesh", "progress", "surface"]),
-    ("bvh", &["counted", "emit", "error", "geom", "lp", "mesh", "progress", "surface"]),
+    ("bvh", &["clock", "counted", "emit", "error", "geom", "lp", "mesh", "progress", "surface"]),
     ("hausdorff", &["bvh", "error", "mesh"]),
     ("tight", BENEATH),
     (
         "hull",
         &[
+            "clock",
             "counted",
             "number",
             "emit",
@@ -118,6 +121,7 @@ const BUILDER: [(&str, &[&str]); 27] = [
         "trade",
         &[
             "check",
+            "clock",
             "distances",
             "number",
             "emit",

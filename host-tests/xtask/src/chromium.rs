@@ -1,12 +1,14 @@
 //! A browser without a window, by the DevTools protocol over a pipe: messages of JSON, each ended
 //! by a zero. No JSON is parsed: answers are searched for the few values that are asked for.
 
+use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
+use crate::process;
 use crate::toolbox::{Toolbox, Wanted};
 
 const CHROMIUM: Wanted = Wanted {
@@ -42,7 +44,7 @@ pub struct Page {
     sent: u32,
     deadline: Instant,
     /// Events that told of errors, as the browser sent them.
-    pub errors: Vec<String>,
+    errors: Vec<String>,
 }
 
 impl Chromium {
@@ -130,12 +132,39 @@ impl Page {
         value(&answer, "value")
     }
 
-    /// A picture of the page as PNG, in base64.
+    /// Writes a picture of the page as PNG.
+    ///
+    /// # Errors
+    /// The browser's; the file cannot be written.
+    pub fn photograph(&mut self, picture: &Path) -> Result<(), String> {
+        let packed = picture.with_extension("base64");
+        let failed = |error: std::io::Error| format!("{}: {error}", picture.display());
+        let data = value(&self.call("Page.captureScreenshot", "")?, "data")?;
+        fs::write(&packed, data).map_err(failed)?;
+        let unpacked = process::output(Command::new("base64").arg("-d").arg(&packed))?;
+        fs::write(picture, unpacked.stdout).map_err(failed)?;
+        fs::remove_file(&packed).map_err(failed)
+    }
+
+    /// Refuses errors that were told so far.
+    ///
+    /// # Errors
+    /// The first one.
+    pub fn require_quiet(&self) -> Result<(), String> {
+        self.errors.first().map_or(Ok(()), |error| Err(format!("in the console: {error}")))
+    }
+
+    /// The window's size, and whether the page is told that a dark one is liked.
     ///
     /// # Errors
     /// The browser's.
-    pub fn picture(&mut self) -> Result<String, String> {
-        value(&self.call("Page.captureScreenshot", "")?, "data")
+    pub fn show_as(&mut self, [width, height]: [u32; 2], is_dark: bool) -> Result<(), String> {
+        let liked = if is_dark { "dark" } else { "light" };
+        let feature = format!("{{\"name\":\"prefers-color-scheme\",\"value\":\"{liked}\"}}");
+        self.call("Emulation.setEmulatedMedia", &format!("\"features\":[{feature}]"))?;
+        let size = format!("\"width\":{width},\"height\":{height}");
+        let size = format!("{size},\"deviceScaleFactor\":1,\"mobile\":false");
+        self.call("Emulation.setDeviceMetricsOverride", &size).map(drop)
     }
 
     fn call(&mut self, method: &str, parameters: &str) -> Result<String, String> {

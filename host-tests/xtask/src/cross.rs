@@ -105,11 +105,7 @@ impl Cross {
 
     /// Makes sure of std for a target that is no board's. Debian's compiler builds it.
     pub fn add(&self, target: &str) -> Result<(), String> {
-        if matches!(self, Self::Debian { .. }) || has_std(&sysroot()?, target) {
-            return Ok(());
-        }
-        process::capture_within(Command::new("rustup").args(["target", "add", target]), LIMIT)
-            .map(drop)
+        if matches!(self, Self::Debian { .. }) { Ok(()) } else { add_std(target) }
     }
 
     /// `cargo SUBCOMMAND --target TARGET...`, at home in the firmware's workspace.
@@ -198,6 +194,20 @@ pub fn own_version() -> Result<String, String> {
 pub fn sysroot() -> Result<PathBuf, String> {
     let printed = process::capture(Command::new("rustc").args(["--print", "sysroot"]))?;
     Ok(PathBuf::from(printed.trim()))
+}
+
+/// Makes sure that the toolchain in use has std for a target.
+///
+/// # Errors
+/// There is no rustup, or it has none.
+pub fn add_std(target: &str) -> Result<(), String> {
+    if has_std(&sysroot()?, target) {
+        return Ok(());
+    }
+    if !process::on_path("rustup") {
+        return Err(format!("no std for {target} and no rustup: `rustup target add {target}`"));
+    }
+    process::capture_within(Command::new("rustup").args(["target", "add", target]), LIMIT).map(drop)
 }
 
 fn has_std(sysroot: &Path, target: &str) -> bool {

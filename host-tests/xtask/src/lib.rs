@@ -66,4 +66,5 @@ pub mod tables;
 pub mod toolbox;
 pub mod tools;
 pub mod valgrind;
+pub mod web;
 pub mod workspace;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::checks::cargo;
-use crate::chromium::{Chromium, Page};
+use crate::chromium::Chromium;
 use crate::process;
 use crate::steps::Steps;
 use crate::workspace;
@@ -61,21 +61,11 @@ fn opened(browser: &Chromium, page: &Path) -> Result<String, String> {
     let mut open = browser.open(page, WINDOW)?;
     open.run("drawn.then(() => 'drawn')")?;
     let picture = page.with_extension("png");
-    let packed = page.with_extension("base64");
-    let failed = |error: std::io::Error| format!("{}: {error}", page.display());
-    fs::write(&packed, open.picture()?).map_err(failed)?;
-    let mut unpack = Command::new("base64");
-    let unpacked = process::output(unpack.arg("-d").arg(&packed))?;
-    fs::write(&picture, unpacked.stdout).map_err(failed)?;
-    fs::remove_file(&packed).map_err(failed)?;
-    require_quiet(&open)?;
+    open.photograph(&picture)?;
+    open.require_quiet()?;
     let seen = open.run(PROBE)?;
-    require_quiet(&open)?;
+    open.require_quiet()?;
     Ok(format!("{seen}\n   {}", picture.display()))
-}
-
-fn require_quiet(page: &Page) -> Result<(), String> {
-    page.errors.first().map_or(Ok(()), |error| Err(format!("in the console: {error}")))
 }
 
 /// A page with a fault of any kind must not pass: an error of a script, one that is only

@@ -3,6 +3,7 @@
 use super::distances::{Distances, distances_from};
 use super::section::{Stored, sections};
 use crate::bvh::TreeOptions;
+use crate::clock::Instant;
 use crate::emit::Sections;
 use crate::error::BuildError;
 use crate::mesh::Input;
@@ -14,7 +15,7 @@ use crate::tight::options::{Goal, Options};
 use crate::tight::report::Report;
 use meshsweep_core::internal::format::layout::MAX_LEVELS;
 use meshsweep_core::internal::num::Radius16;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Most hulls of a blob.
 pub const MAX_HULLS: usize = MAX_LEVELS as usize;
