@@ -128,6 +128,7 @@ const BUILDER: [(&str, &[&str]); 27] = [
             "surface",
             "load",
             "hull",
+            "curve",
             "builder",
         ],
     ),
