@@ -68,8 +68,8 @@ impl Gain {
         Gain { before, after: Some(after), is_gain: cost(after) < cost(before) }
     }
 
-    /// Of other planes: `plain` was split without them, `grown` with them. `oriented` is what a turn
-    /// gained after that.
+    /// Of other planes: `plain` was split without them, `grown` with them. `oriented` is what a
+    /// turn gained after that.
     #[must_use]
     pub fn of_planes(
         plain: &Hierarchy,

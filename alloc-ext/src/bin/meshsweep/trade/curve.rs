@@ -134,8 +134,8 @@ fn write(out: &mut dyn Write, trade: &Trade, worst: &[Option<Worst>]) -> io::Res
          distance in f64 from all\nsegments less the lower end, and the upper end less that \
          distance, the largest. M4F, M0:\ninstructions of a Cortex-M4F and a Cortex-M0, predicted; \
          - if no cost was fitted. flash: bytes of\nthe blob. scratch: bytes, memory kept between \
-         queries among them. stack: bytes of a Cortex-M4F's,\nat most. host ns: of this machine, on \
-         one thread. work: capsules and segments that a mean query\nlooks at, and runs that it \
+         queries among them. stack: bytes of a Cortex-M4F's,\nat most. host ns: of this machine, \
+         on one thread. work: capsules and segments that a mean query\nlooks at, and runs that it \
          opens. worst: the same of the costliest query that hill climbing found,\nof within at any \
          distance; a costlier one may exist, but of steps. A kept search has none."
     )?;
