@@ -84,14 +84,14 @@ pub(super) fn of_blob(
     }
     let sdf = built.sdf.as_ref().map_or_else(Vec::new, of_sdf);
     let triboxes = built.triboxes.as_ref();
-    let oriented = triboxes.and_then(|report| of_orient(options, report, loaded));
+    let gains = triboxes.map_or_else(Vec::new, |report| of_gains(options, report, loaded));
     let triboxes = triboxes.and_then(|report| of_triboxes(options, report));
     let winding = if options.serves(For::Winding) { of_winding(loaded) } else { vec![] };
     notes(Topic::Input, of_mesh(loaded, built.hull.as_ref()))
         .chain(notes(Topic::Hull, hull))
         .chain(notes(Topic::BoxTree, tree))
         .chain(notes(Topic::Sides, sides))
-        .chain(notes(Topic::Triboxes, oriented.into_iter().chain(triboxes)))
+        .chain(notes(Topic::Triboxes, gains.into_iter().chain(triboxes)))
         .chain(notes(Topic::Tight, tight))
         .chain(notes(Topic::Sdf, sdf))
         .chain(notes(Topic::Winding, winding))
@@ -206,11 +206,14 @@ fn of_triboxes(options: &Options, report: &TriboxReport) -> Option<String> {
     (reached > wanted).then_some(text)
 }
 
-/// Says what turning triboxes gained.
-fn of_orient(options: &Options, report: &TriboxReport, loaded: &Loaded) -> Option<String> {
-    let (measure, gain) = (options.orient?, report.oriented?);
+/// Says what planes beyond extrema gained, and what turning triboxes did.
+fn of_gains(options: &Options, report: &TriboxReport, loaded: &Loaded) -> Vec<String> {
     let solid = report.is_solid.then(|| volume(&loaded.mesh));
-    Some(gain.said(&format!("--orient {}", measure.name()), solid).to_string())
+    let turned = options.orient.zip(report.oriented);
+    let turned = turned.map(|(measure, gain)| (format!("--orient {}", measure.name()), gain));
+    let planes = report.extrema.map(|gain| ("--extrema".to_owned(), gain));
+    let all = planes.into_iter().chain(turned);
+    all.map(|(option, gain)| gain.said(&option, solid).to_string()).collect()
 }
 
 /// Names the tight hulls that the blob lacks.

@@ -29,6 +29,8 @@ pub enum Recipe {
     Sdf(u32),
     /// The same and a box tree for distances.
     TreeWithSdf(u32),
+    /// Curves.
+    Curve(VertexBits),
 }
 
 impl Recipe {
@@ -58,6 +60,7 @@ impl Recipe {
                 sdf_layout: Some(SdfLayout::Lattice),
                 ..Options::default()
             },
+            Self::Curve(bits) => Options { vertex_bits: bits, ..serving(For::Curve) },
         }
     }
 
@@ -72,6 +75,7 @@ impl Recipe {
             Self::Triboxes(count) => format!("triboxes, {count}"),
             Self::Sdf(bytes) => format!("distance field, {bytes} bytes"),
             Self::TreeWithSdf(bytes) => format!("field first, {bytes} bytes"),
+            Self::Curve(bits) => format!("curve, {bits} bits"),
         }
     }
 }

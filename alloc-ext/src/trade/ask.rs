@@ -7,8 +7,8 @@ use crate::builder::Recipe;
 use crate::clock::Instant;
 use crate::distances::Distances;
 use meshsweep_core::{
-    Blob, Budget, ClosestPoint, CoherentQuery, Ended, Facing, FirstHit, Hint, QueryError,
-    ScratchEntry, Work,
+    Blob, Budget, BuildFor, ClosestPoint, CoherentQuery, Curve, Ended, Facing, FirstHit, Hint,
+    Interval, QueryError, ScratchEntry, Side, Verdict, Work,
 };
 use std::hint::black_box;
 
@@ -22,7 +22,8 @@ pub(super) struct Answer {
     pub lower: f64,
     /// It is no more; infinite if the structure has no upper bound.
     pub upper: f64,
-    /// Whether a segment is proved neither clear nor to meet the mesh.
+    /// Whether a segment is proved neither clear nor to meet the mesh, or a verdict or a side is
+    /// undecided.
     pub is_undecided: bool,
     /// What the cost of a search is predicted from. `None`: there was none, the field was enough.
     pub features: Option<Features>,
@@ -73,7 +74,10 @@ pub(super) fn ask(
         return first_hits(setting, &blob, points.as_chunks().0);
     }
     let points = points.as_chunks::<1>().0;
+    let is_of_curves = matches!(setting.question, Question::Within(_) | Question::Signed);
     match setting.recipe {
+        Recipe::Curve(_) => of_curves(setting, &blob.curve()?, points),
+        _ if is_of_curves => Err(QueryError::NotServed { build_for: BuildFor::Curve }),
         Recipe::Tree(_) | Recipe::SegmentTree(_) => {
             let tree = blob.bvh()?;
             let mut stack = entries(setting, tree.scratch_entries_for(budget));
@@ -185,6 +189,54 @@ const OPENED: usize = 5;
 
 fn entries(setting: &Setting, enough: usize) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; setting.entries.unwrap_or(enough).min(enough).max(1)]
+}
+
+/// Questions to curves, asked twice likewise.
+fn of_curves(
+    setting: &Setting,
+    curve: &Curve<'_>,
+    points: &[[[f32; 3]; 1]],
+) -> Result<Asked, QueryError> {
+    let Setting { question, budget, how, .. } = *setting;
+    let is_kept = how == How::Coherent;
+    let enough = if is_kept { curve.sweep_entries() } else { curve.scratch_entries() };
+    let mut queue = entries(setting, enough);
+    let of = Of { budget, shape: Shape::of_curve(curve), scratch: size_of_val(queue.as_slice()) };
+    let told = |distance: Interval, is_undecided, work| {
+        let ends = [distance.lower, distance.upper].map(f64::from);
+        Told { ends, work, is_undecided }
+    };
+    match question {
+        Question::Within(distance) => twice(points, &of, |[p]| {
+            let found = curve.within(p, distance, budget, &mut queue)?;
+            let end = f64::from(distance);
+            let ends = match found.verdict {
+                Verdict::Yes => [0.0, end],
+                Verdict::No => [end, f64::INFINITY],
+                _ => [0.0, f64::INFINITY],
+            };
+            let is_undecided = matches!(found.verdict, Verdict::Undecided(_));
+            Ok(Told { ends, work: found.work, is_undecided })
+        }),
+        Question::Signed => twice(points, &of, |[[x, y, _]]| {
+            let found = curve.signed_distance([x, y], budget, &mut queue)?;
+            let is_undecided = matches!(found.side, Side::Undecided(_));
+            Ok(told(found.closest.distance, is_undecided, found.closest.work))
+        }),
+        _ if is_kept => {
+            let begin = points.first().map_or([0.0; 3], |&[begin]| begin);
+            let mut sweep = curve.sweep(begin, &mut queue)?;
+            twice(points, &of, |[p]| {
+                sweep.move_to(p)?;
+                let found = sweep.closest_point(budget)?;
+                Ok(told(found.distance, false, found.work))
+            })
+        }
+        _ => twice(points, &of, |[p]| {
+            let found = curve.closest_point(p, budget, &mut queue)?;
+            Ok(told(found.distance, false, found.work))
+        }),
+    }
 }
 
 /// First hits of segments, asked twice likewise.

@@ -6,7 +6,7 @@
 //! prints the error on meshes that the fit has not seen.
 
 use crate::emit::source::stack_bound;
-use meshsweep_core::{Budget, Bvh, Hull, Sdf, TightHull, Triboxes, Work};
+use meshsweep_core::{Budget, Bvh, Curve, Hull, Sdf, TightHull, Triboxes, Work};
 
 /// A processor whose instructions are predicted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,13 +62,21 @@ pub enum Search {
     PairOfTrees,
     /// Whether triboxes prove that two models are farther than a distance.
     PairOfTriboxes,
+    /// The closest point of curves.
+    Curve,
+    /// The same by one search that moves.
+    KeptCurve,
+    /// Whether curves are within a distance.
+    CurveWithin,
+    /// The signed distance of a fence.
+    CurveSigned,
     /// The distance of a distance field: one look-up, whose cost is known by its construction.
     Field,
 }
 
 impl Search {
     /// All whose costs are fitted.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 18] = [
         Self::Tree,
         Self::TreeF32,
         Self::Precise,
@@ -83,6 +91,10 @@ impl Search {
         Self::FirstHitOfHull,
         Self::PairOfTrees,
         Self::PairOfTriboxes,
+        Self::Curve,
+        Self::KeptCurve,
+        Self::CurveWithin,
+        Self::CurveSigned,
     ];
 
     /// Bytes of stack below the caller that the question takes at most on a board.
@@ -106,6 +118,10 @@ impl Search {
             Self::FirstHitOfHull => "first hit of a hull",
             Self::PairOfTrees => "distance of two models",
             Self::PairOfTriboxes => "within of triboxes",
+            // Below `within` there is the same search, with less beside it.
+            Self::Curve | Self::CurveWithin => "closest point of curves",
+            Self::KeptCurve => "sweep of curves",
+            Self::CurveSigned => "signed distance of curves",
             Self::Field => "distance of a field",
         }
     }
@@ -128,6 +144,10 @@ impl Search {
             Self::FirstHitOfHull => "first hit, hull",
             Self::PairOfTrees => "pair of trees",
             Self::PairOfTriboxes => "pair of triboxes",
+            Self::Curve => "curve",
+            Self::KeptCurve => "curve, kept",
+            Self::CurveWithin => "curve, within",
+            Self::CurveSigned => "curve, signed",
             Self::Field => "distance field",
         }
     }
@@ -185,6 +205,13 @@ impl Shape {
     #[must_use]
     pub fn of_field(field: &Sdf<'_>) -> Self {
         let [low, high] = field.bounds();
+        Self { low, high, leaf: f64::INFINITY }
+    }
+
+    /// Of curves.
+    #[must_use]
+    pub fn of_curve(curve: &Curve<'_>) -> Self {
+        let [low, high] = curve.bounds();
         Self { low, high, leaf: f64::INFINITY }
     }
 

@@ -5,9 +5,11 @@ use super::blobs::{NotBuilt, build_group};
 use super::cost::{Board, Cost, Search};
 use super::field;
 use super::fitted::cost as fitted_cost;
+use super::points::segments_of_curves;
 use super::setting::{Question, Setting};
 use super::truth::Truth;
-use crate::builder::{Built, Recipe};
+use crate::builder::{Builder, Built, Recipe};
+use crate::curve::Polyline;
 use crate::load::{Loaded, Source};
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -92,7 +94,8 @@ pub struct Row {
     pub found_lower: Spread,
     /// The upper end, less it. `None` without an upper end.
     pub found_upper: Option<Spread>,
-    /// Segments that are proved neither clear nor to meet the mesh. 0 of points.
+    /// Segments that are proved neither clear nor to meet the mesh; verdicts and sides that are
+    /// undecided. 0 of closest points.
     pub undecided: usize,
     /// Of a mean query on this machine, on one thread. A box tree is searched in the order that is
     /// fastest here.
@@ -198,16 +201,10 @@ pub fn measure(
     settings: &[Setting],
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Trade, QueryError> {
-    let mut recipes: Vec<Recipe> = Vec::new();
-    for setting in settings {
-        if !recipes.contains(&setting.recipe) {
-            recipes.push(setting.recipe);
-        }
-    }
+    let recipes = recipes_of(settings);
     let (done, of) = (AtomicUsize::new(0), recipes.len() + settings.len());
     let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
     let truth = Truth::of(&repaired.mesh);
-    let [mut distances, mut free] = [const { None::<Vec<f64>> }; 2];
     let is_cut = |recipe: &Recipe| matches!(recipe, Recipe::CutLevel(_));
     let (cut, others): (Vec<Recipe>, Vec<Recipe>) = recipes.into_iter().partition(is_cut);
     let mut groups: Vec<Vec<Recipe>> = others.into_iter().map(|other| vec![other]).collect();
@@ -228,19 +225,74 @@ pub fn measure(
             Err(reason) => trade.missing.push(Missing { recipe, reason }),
         }
     }
+    add_rows(&mut trade, points, settings, &truth, &step)?;
+    Ok(trade)
+}
+
+/// Measures each setting on curves; its recipe is [`Recipe::Curve`].
+///
+/// As [`measure`]. Signed distances are asked of the points' x and y.
+///
+/// # Errors
+/// A point that is not finite, and [`Question::Signed`] of curves that bound no area.
+pub fn measure_curves(
+    polylines: &[Polyline],
+    points: &[[f32; 3]],
+    settings: &[Setting],
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Trade, QueryError> {
+    let recipes = recipes_of(settings);
+    let (done, of) = (AtomicUsize::new(0), recipes.len() + settings.len());
+    let step = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
+    let mut trade =
+        Trade { rows: Vec::new(), missing: Vec::new(), needles: 0.0, blobs: Vec::new() };
+    for recipe in recipes {
+        match Builder::of(recipe).build_curves(polylines) {
+            Ok(built) => trade.blobs.push((recipe, built)),
+            Err(error) => trade.missing.push(Missing { recipe, reason: error.into() }),
+        }
+        step();
+    }
+    let truth = Truth::of_triangles(segments_of_curves(polylines));
+    add_rows(&mut trade, points, settings, &truth, &step)?;
+    Ok(trade)
+}
+
+fn recipes_of(settings: &[Setting]) -> Vec<Recipe> {
+    let mut recipes: Vec<Recipe> = Vec::new();
+    for setting in settings {
+        if !recipes.contains(&setting.recipe) {
+            recipes.push(setting.recipe);
+        }
+    }
+    recipes
+}
+
+/// Asks the blobs at hand by each setting, and compares with the truth.
+fn add_rows(
+    trade: &mut Trade,
+    points: &[[f32; 3]],
+    settings: &[Setting],
+    truth: &Truth,
+    step: &dyn Fn(),
+) -> Result<(), QueryError> {
+    let [mut distances, mut free, mut flat] = [const { None::<Vec<f64>> }; 3];
     for setting in settings {
         if let Some((_, built)) = trade.blobs.iter().find(|(of, _)| *of == setting.recipe) {
             let asked = ask(setting, built.bytes(), points)?;
             let truths = match setting.question {
-                Question::ClosestPoint => distances.get_or_insert_with(|| truth.distances(points)),
+                Question::ClosestPoint | Question::Within(_) => {
+                    distances.get_or_insert_with(|| truth.distances(points))
+                }
+                Question::Signed => flat.get_or_insert_with(|| truth.distances_in_plane(points)),
                 Question::FirstHit => free.get_or_insert_with(|| truth.free_lengths(points)),
             };
-            let row = row(*setting, built, &asked, truths).map(|row| row.of_needles(needles));
-            trade.rows.extend(row);
+            let row = row(*setting, built, &asked, truths);
+            trade.rows.extend(row.map(|row| row.of_needles(trade.needles)));
         }
         step();
     }
-    Ok(trade)
+    Ok(())
 }
 
 /// The distances of points from a mesh, in f64, from all of its triangles.

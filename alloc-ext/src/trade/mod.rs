@@ -1,4 +1,4 @@
-//! The trade of a mesh, measured: what each setting of each structure promises, finds and costs.
+//! The trade of a mesh or of curves, measured: what each setting of each structure promises, finds and costs.
 //!
 //! ```text
 //! settings ─ recipes ─ blobs ─ ask ─┬─ intervals ─ truth ─ errors ──┬─ rows ─ pareto
@@ -7,7 +7,7 @@
 //!
 //! | file | owns |
 //! | --- | --- |
-//! | `points` | points and segments far from a mesh, near it, and along a path |
+//! | `points` | points and segments far from a mesh or curves, near them, and along a path |
 //! | `setting` | a recipe and how it is asked, and the list that [`measure()`] is given by default |
 //! | `blobs` | the blob of a recipe, or why there is none |
 //! | `ask` | the answers of a setting, their work, and the time of this machine |
@@ -43,8 +43,8 @@ pub use fitted::cost;
 pub use limits::{CYCLES, Choice, Cpu, Limits, Unmet};
 pub use measure::{
     COMB_OF_NEEDLES, Instructions, MANY_NEEDLES, Missing, Row, Spread, Trade, distances, measure,
-    pareto,
+    measure_curves, pareto,
 };
 pub use pairs::{PairError, PairRow, PairStructure, PairTrade, measure_pair};
-pub use points::{Points, diagonal, points, segments};
-pub use setting::{How, Question, Setting, standard, standard_of_segments};
+pub use points::{Points, diagonal, diagonal_of_curves, points, points_of_curves, segments};
+pub use setting::{How, Question, Setting, standard, standard_of_curves, standard_of_segments};

@@ -1,5 +1,6 @@
 //! Points and segments far from a mesh, near it, and along a path.
 
+use crate::curve::Polyline;
 use crate::mesh::Mesh;
 use crate::random::SplitMix;
 use glam::DVec3;
@@ -42,7 +43,23 @@ const LENGTH: f64 = 0.1;
 /// `count` points of a kind, the same in every run. Empty if the mesh has no triangle with an area.
 #[must_use]
 pub fn points(mesh: &Mesh, kind: Points, count: usize) -> Vec<[f32; 3]> {
-    let surface = Surface::of(mesh);
+    points_of(&Surface::of(mesh), kind, count)
+}
+
+/// The same of curves: near ones are on segments by length, then moved. Along an axis on which the
+/// curves do not extend, as the z of a fence, no point leaves them. Empty without length.
+#[must_use]
+pub fn points_of_curves(polylines: &[Polyline], kind: Points, count: usize) -> Vec<[f32; 3]> {
+    points_of(&Surface::of_curves(polylines), kind, count)
+}
+
+/// The diagonal of the box of curves.
+#[must_use]
+pub fn diagonal_of_curves(polylines: &[Polyline]) -> f64 {
+    Surface::of_curves(polylines).diagonal()
+}
+
+fn points_of(surface: &Surface, kind: Points, count: usize) -> Vec<[f32; 3]> {
     if surface.sums.last().is_none_or(|&area| area <= 0.0) {
         return Vec::new();
     }
@@ -121,27 +138,51 @@ pub fn diagonal(mesh: &Mesh) -> f64 {
     (0..3).map(|k| side(k).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Triangles with running sums of their areas, and the box of all.
+/// The segments of curves as triangles of two equal corners, the closing ones too.
+pub(super) fn segments_of_curves(polylines: &[Polyline]) -> Vec<[DVec3; 3]> {
+    let of = |polyline: &Polyline| {
+        let points: Vec<DVec3> = polyline.points.iter().map(|&p| DVec3::from(p)).collect();
+        let count = points.len() - usize::from(!polyline.is_closed);
+        let end = move |k: usize| points[k % points.len()];
+        (0..count).map(|k| [end(k), end(k + 1), end(k + 1)]).collect::<Vec<_>>()
+    };
+    polylines.iter().filter(|polyline| !polyline.points.is_empty()).flat_map(of).collect()
+}
+
+/// Triangles with running sums of their areas, or segments with those of their lengths, and the box
+/// of all.
 struct Surface {
     triangles: Vec<[DVec3; 3]>,
     sums: Vec<f64>,
     low: DVec3,
     high: DVec3,
+    /// 1 along axes on which near points leave it, else 0.
+    moved: DVec3,
 }
 
 impl Surface {
     fn of(mesh: &Mesh) -> Self {
-        let triangles: Vec<[DVec3; 3]> = mesh.corners_f64().collect();
+        Self::by(mesh.corners_f64().collect(), |[a, b, c]| (b - a).cross(c - a).length())
+    }
+
+    fn of_curves(polylines: &[Polyline]) -> Self {
+        let all = Self::by(segments_of_curves(polylines), |[a, b, _]| a.distance(*b));
+        let is_flat = all.high.cmpeq(all.low);
+        Self { moved: DVec3::select(is_flat, DVec3::ZERO, DVec3::ONE), ..all }
+    }
+
+    /// Each triangle is as likely as its size says.
+    fn by(triangles: Vec<[DVec3; 3]>, size: impl Fn(&[DVec3; 3]) -> f64) -> Self {
         let mut sum = 0.0;
-        let sums = triangles.iter().map(|[a, b, c]| {
-            sum += (b - a).cross(c - a).length();
+        let sums = triangles.iter().map(|triangle| {
+            sum += size(triangle);
             sum
         });
         let sums = sums.collect();
         let corners = || triangles.iter().flatten();
         let low = corners().fold(DVec3::INFINITY, |low, &p| low.min(p));
         let high = corners().fold(DVec3::NEG_INFINITY, |high, &p| high.max(p));
-        Self { triangles, sums, low, high }
+        Self { triangles, sums, low, high, moved: DVec3::ONE }
     }
 
     fn diagonal(&self) -> f64 {
@@ -153,8 +194,12 @@ impl Surface {
         let index = self.sums.partition_point(|&sum| sum <= at).min(self.triangles.len() - 1);
         let [a, b, c] = self.triangles[index];
         let (u, v) = (random.roll(), random.roll());
-        let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
-        let off = DVec3::from_array([(); 3].map(|()| gaussian(random)));
+        let (u, v) = match (b == c, u + v > 1.0) {
+            (true, _) => (u, 0.0),
+            (_, true) => (1.0 - u, 1.0 - v),
+            _ => (u, v),
+        };
+        let off = self.moved * DVec3::from_array([(); 3].map(|()| gaussian(random)));
         a + (b - a) * u + (c - a) * v + off * (NEAR * self.diagonal())
     }
 }

@@ -8,13 +8,17 @@ use meshsweep_core::Budget;
 use std::fmt;
 
 /// The question of a measurement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Question {
     /// The closest point. A place is a point, and the error is the width of the distance.
     ClosestPoint,
     /// The first hit of a segment. A place is two points in a row, and the error is the width of
     /// the free length: how far the segment goes before it meets the mesh.
     FirstHit,
+    /// Whether curves are within this distance. A place is a point, and there is no interval.
+    Within(f32),
+    /// The signed distance of a fence. A place is a point, whose z is not asked.
+    Signed,
 }
 
 impl Question {
@@ -22,8 +26,8 @@ impl Question {
     #[must_use]
     pub const fn points(self) -> usize {
         match self {
-            Self::ClosestPoint => 1,
             Self::FirstHit => 2,
+            _ => 1,
         }
     }
 }
@@ -35,7 +39,7 @@ pub enum How {
     Fresh,
     /// The leaf of the last answer, as in a batch.
     Hinted,
-    /// A front of the box tree, or the triangles of a sweep.
+    /// A front of the box tree, the triangles of a sweep, or the queue of one about curves.
     Coherent,
     /// Nothing, and the box tree measures in f64.
     Precise,
@@ -104,6 +108,12 @@ impl Setting {
             };
         }
         match (self.recipe, self.how) {
+            (Recipe::Curve(_), How::Coherent) => Search::KeptCurve,
+            (Recipe::Curve(_), _) => match self.question {
+                Question::Within(_) => Search::CurveWithin,
+                Question::Signed => Search::CurveSigned,
+                _ => Search::Curve,
+            },
             (Recipe::Tree(_), How::Coherent) => Search::Coherent,
             (Recipe::Tree(_), How::Hinted) => Search::Hinted,
             (Recipe::Tree(_), How::Precise) => Search::Precise,
@@ -128,7 +138,7 @@ impl Setting {
             Recipe::Sweep(bits) => matches!(bits, VertexBits::F32),
             Recipe::Tight(faces) => faces == 200,
             Recipe::Triboxes(count) => count == 64,
-            Recipe::Sdf(_) => true,
+            Recipe::Sdf(_) | Recipe::Curve(_) => true,
             Recipe::CutLevel(_) | Recipe::TreeWithSdf(_) => false,
         };
         is_of_fit && self.entries.is_none()
@@ -138,6 +148,11 @@ impl Setting {
     #[must_use]
     pub fn dials(&self) -> String {
         let mut words = Vec::new();
+        match self.question {
+            Question::Within(distance) => words.push(format!("within {distance}")),
+            Question::Signed => words.push("signed".to_owned()),
+            _ => {}
+        }
         match self.how {
             How::Fresh => {}
             How::Hinted => words.push("from the last leaf".to_owned()),
@@ -157,7 +172,8 @@ impl Setting {
         if let Some(entries) = self.entries {
             words.push(format!("scratch {entries}"));
         }
-        if words.is_empty() {
+        let is_named = matches!(self.question, Question::Within(_) | Question::Signed);
+        if words.len() == usize::from(is_named) {
             words.push("exact".to_owned());
         }
         words.join(", ")
@@ -235,6 +251,42 @@ pub fn standard_of_segments() -> Vec<Setting> {
     let sweeps = bits.map(|bits| Setting::first_hit(Recipe::Sweep(bits)));
     all.extend(sweeps);
     all.extend([16, 64].map(|steps| sweeps[2].with_budget(exact.with_steps(steps))));
+    all
+}
+
+/// The settings that are measured by default for curves of this diagonal; `is_fence` if they bound
+/// an area. Kept searches are among them if the points are a path, or the caller's own.
+#[must_use]
+pub fn standard_of_curves(diagonal: f64, is_fence: bool, points: Option<Points>) -> Vec<Setting> {
+    let exact = Budget::EXACT;
+    let tolerant = || {
+        let relative = [0.01, 0.1].map(|part| exact.with_relative(part));
+        let absolute = [0.001, 0.01].map(|part| one_digit(part * diagonal));
+        relative.into_iter().chain(absolute.map(|near| exact.with_absolute(near)))
+    };
+    let brief = || [4, 8, 16, 32].map(|steps| exact.with_steps(steps));
+    let [coarse, fine] =
+        [VertexBits::Grid16, VertexBits::F32].map(|bits| Setting::new(Recipe::Curve(bits)));
+    let mut all = vec![coarse];
+    all.extend(tolerant().chain(brief()).map(|budget| coarse.with_budget(budget)));
+    all.push(fine);
+    if points.is_none_or(|points| points == Points::Path) {
+        let kept = coarse.with_how(How::Coherent);
+        all.push(kept);
+        all.extend(tolerant().chain(brief()).map(|budget| kept.with_budget(budget)));
+        all.push(fine.with_how(How::Coherent));
+    }
+    for part in [0.003, 0.03] {
+        let within = Setting { question: Question::Within(one_digit(part * diagonal)), ..coarse };
+        all.push(within);
+        all.extend(brief().map(|budget| within.with_budget(budget)));
+    }
+    if is_fence {
+        let signed = Setting { question: Question::Signed, ..coarse };
+        all.push(signed);
+        all.extend(tolerant().chain(brief()).map(|budget| signed.with_budget(budget)));
+        all.push(Setting { question: Question::Signed, ..fine });
+    }
     all
 }
 

@@ -21,7 +21,11 @@ pub(super) struct Truth {
 impl Truth {
     /// Of all triangles, those without area too.
     pub fn of(mesh: &Mesh) -> Self {
-        let triangles: Vec<[DVec3; 3]> = mesh.all_corners_f64().collect();
+        Self::of_triangles(mesh.all_corners_f64().collect())
+    }
+
+    /// Of triangles, which may be segments or points.
+    pub fn of_triangles(triangles: Vec<[DVec3; 3]>) -> Self {
         let sphere = |corners: &[DVec3; 3]| {
             let centre = corners.iter().sum::<DVec3>() / 3.0;
             let radius = corners.iter().fold(0f64, |most, &p| most.max(p.distance(centre)));
@@ -35,6 +39,12 @@ impl Truth {
     /// The distances of points.
     pub fn distances(&self, points: &[[f32; 3]]) -> Vec<f64> {
         points.par_iter().map(|&point| self.distance(point)).collect()
+    }
+
+    /// The distances of points that are moved along z to the plane of the first corner.
+    pub fn distances_in_plane(&self, points: &[[f32; 3]]) -> Vec<f64> {
+        let z = self.triangles.first().map_or(0.0, |[a, ..]| a.z);
+        points.par_iter().map(|&[x, y, _]| self.to(DVec3::new(x.into(), y.into(), z))).collect()
     }
 
     /// How far each segment, two points in a row, goes before it meets the mesh: its length if it
@@ -59,7 +69,10 @@ impl Truth {
 
     /// The distance of a point.
     pub fn distance(&self, point: [f32; 3]) -> f64 {
-        let p = glam::Vec3::from(point).as_dvec3();
+        self.to(glam::Vec3::from(point).as_dvec3())
+    }
+
+    fn to(&self, p: DVec3) -> f64 {
         let upper = |&(centre, radius): &(DVec3, f64)| p.distance(centre) * (1.0 + 1e-12) + radius;
         let most = self.spheres.iter().map(upper).fold(f64::INFINITY, f64::min);
         let pairs = self.spheres.iter().zip(&self.triangles);

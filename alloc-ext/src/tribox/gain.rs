@@ -68,6 +68,19 @@ impl Gain {
         Gain { before, after: Some(after), is_gain: cost(after) < cost(before) }
     }
 
+    /// Of other planes: `plain` was split without them, `grown` with them. `oriented` is what a
+    /// turn gained after that.
+    #[must_use]
+    pub fn of_planes(
+        plain: &Hierarchy,
+        grown: &Hierarchy,
+        oriented: Option<Gain>,
+        is_by_error: bool,
+    ) -> Gain {
+        let after = oriented.map_or_else(|| Total::of(grown), |gain| gain.before);
+        Self::of(Total::of(plain), after, plain.measure, is_by_error)
+    }
+
     /// The gain as words. `option` is the option as it was typed, `solid` the volume of the solid.
     #[must_use]
     pub fn said<'a>(&'a self, option: &'a str, solid: Option<f64>) -> impl fmt::Display + 'a {

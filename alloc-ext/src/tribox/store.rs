@@ -41,7 +41,8 @@ pub struct TriboxOptions {
     /// The blob keeps the turned triboxes if they are fewer, where [`error`](Self::error) is set,
     /// else if the finest level has less of the measure in all. Cost: a second split.
     pub orient: Option<Measure>,
-    /// Planes just beyond local extrema of the mesh are tried too.
+    /// Planes just beyond local extrema of the mesh are tried too. Cost: the mesh is also split
+    /// without them, for the report of the gain.
     pub extrema: bool,
 }
 
@@ -85,6 +86,9 @@ pub struct TriboxReport {
     pub is_solid: bool,
     /// What [`orient`](TriboxOptions::orient) gained. `None` if it was not asked for.
     pub oriented: Option<Gain>,
+    /// What [`extrema`](TriboxOptions::extrema) gained along the mesh's axes. `None` if they were not
+    /// tried.
+    pub extrema: Option<Gain>,
     /// Time of the whole build.
     pub time: Duration,
 }
@@ -115,15 +119,29 @@ pub fn build(
     };
     if whole.is_empty() {
         let tables = tables(Aabb { min: Vec3::ZERO, max: Vec3::ZERO }, Vec::new());
-        let (levels, time) = (Vec::new(), started.elapsed());
-        return Ok((
-            tables,
-            TriboxReport { levels, reached: None, is_solid: false, oriented: None, time },
-        ));
+        let report = TriboxReport {
+            levels: Vec::new(),
+            reached: None,
+            is_solid: false,
+            oriented: None,
+            extrema: None,
+            time: started.elapsed(),
+        };
+        return Ok((tables, report));
     }
-    let splitting =
-        Splitting { mesh: input.mesh, options: options.split(), grid: Grid::Blob(input.error()) };
-    let (grown, oriented) = splitting.oriented(options.orient, watch.part(0.0, 0.8))?;
+    let splitting = |options: TriboxOptions| Splitting {
+        mesh: input.mesh,
+        options: options.split(),
+        grid: Grid::Blob(input.error()),
+    };
+    let plain = options.with_extrema(false);
+    let plain = options.extrema.then(|| splitting(plain).oriented(None, watch.part(0.0, 0.3)));
+    let from = if plain.is_some() { 0.3 } else { 0.0 };
+    let plain = plain.transpose()?.map(|(plain, _)| plain.hierarchy);
+    let (grown, oriented) = splitting(*options).oriented(options.orient, watch.part(from, 0.8))?;
+    let is_by_error = options.error.is_some();
+    let extrema =
+        plain.map(|plain| Gain::of_planes(&plain, &grown.hierarchy, oriented, is_by_error));
     let lattice = match grown.lattice {
         Some(lattice) => lattice,
         None => Lattice::in_frame(&grown.mesh, scale, input.error())?,
@@ -155,7 +173,7 @@ pub fn build(
     let tables = tables(bounds, section);
     let reached = levels.last().map(|level| lattice.claimed(level.error));
     let (is_solid, time) = (hierarchy.is_solid, started.elapsed());
-    Ok((tables, TriboxReport { levels, reached, is_solid, oriented, time }))
+    Ok((tables, TriboxReport { levels, reached, is_solid, oriented, extrema, time }))
 }
 
 /// Volume that a closed mesh bounds, cubed input units.

@@ -13,7 +13,7 @@ pub enum Question {
     Closest,
     /// Whether anything is within a distance.
     Within,
-    /// Signed distances, by a box tree.
+    /// Signed distances, by a box tree or a fence.
     Signed,
     /// Winding numbers, by a box tree.
     Winding,
@@ -78,7 +78,8 @@ impl<'a> Subject<'a> {
             add(Distances::Tight(hull), &[(is_near, Closest), (is_near, Within)]);
         }
         if let Ok(curve) = blob.curve() {
-            add(Distances::Curve(curve), &[(true, Closest), (true, Within)]);
+            let is_fence = curve.check_fence().is_ok();
+            add(Distances::Curve(curve), &[(true, Closest), (true, Within), (is_fence, Signed)]);
         }
         all
     }
@@ -109,12 +110,20 @@ impl<'a> Subject<'a> {
             (Question::Within, _) => search.balls(|point, share, scratch| {
                 let near = structure.closest_point(point, Budget::EXACT, scratch).ok()?;
                 let distance = share * near.distance.upper;
-                found(structure.any_within(point, distance, budget, scratch).ok()?.work, None)
+                let work = structure.any_within(point, distance, budget, scratch).ok()?.work;
+                let instructions = instructions(self, &[point], &budget, &work);
+                Some(Found { work, width: None, instructions })
             }),
             (Question::Signed, Distances::Tree(tree)) => search.points(|point, scratch| {
                 let signed = signed_distance(tree, *point, budget, scratch).ok()?;
                 let Interval { lower, upper } = signed.distance;
                 found(signed.closest.work, Some(upper - lower))
+            }),
+            (Question::Signed, Distances::Curve(curve)) => search.points(|&[x, y, z], scratch| {
+                let found = curve.signed_distance([x, y], budget, scratch).ok()?.closest;
+                let width = Some(found.distance.upper - found.distance.lower);
+                let instructions = instructions(self, &[[x, y, z]], &budget, &found.work);
+                Some(Found { work: found.work, width, instructions })
             }),
             (Question::Winding, Distances::Tree(tree)) => search.points(|point, scratch| {
                 let winding = tree.winding_number(*point, budget, scratch).ok()?;
@@ -136,7 +145,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Instructions of a closest point or a first hit with this work, as [`trade`] predicts them.
+/// Instructions of a closest point, a first hit or a question to curves with this work, as [`trade`] predicts them.
 fn instructions(
     Subject { question, structure }: &Subject<'_>,
     place: &[[f32; 3]],
@@ -144,7 +153,17 @@ fn instructions(
     work: &Work,
 ) -> Option<[f64; 2]> {
     let is_hit = *question == Question::Segment;
+    let is_known = matches!(question, Question::Closest | Question::Segment);
     let (search, shape) = match structure {
+        Distances::Curve(curve) => {
+            let search = match question {
+                Question::Within => trade::Search::CurveWithin,
+                Question::Signed => trade::Search::CurveSigned,
+                _ => trade::Search::Curve,
+            };
+            (search, Shape::of_curve(curve))
+        }
+        _ if !is_known => return None,
         Distances::Tree(tree) => {
             let search = match (is_hit, tree.header().is_f32()) {
                 (false, false) => trade::Search::Tree,
@@ -157,7 +176,7 @@ fn instructions(
         Distances::Hull(hull) if is_hit => (trade::Search::FirstHitOfHull, Shape::of_hull(hull)),
         Distances::Hull(hull) => (trade::Search::Sweep, Shape::of_hull(hull)),
         Distances::Tight(hull) => (trade::Search::Tight, Shape::of_tight(hull)),
-        Distances::TreeWithField(_) | Distances::Curve(_) => return None,
+        Distances::TreeWithField(_) => return None,
     };
     let features = shape.features(place, budget, work);
     let [m4f, m0] = Board::ALL.map(|board| trade::cost(board, search));

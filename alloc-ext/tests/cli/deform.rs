@@ -1,5 +1,6 @@
 //! Meshes that deform: key frames built, asked, described, refused.
 
+use crate::overlap::{meeting, poses};
 use crate::support::{
     Triangle, arg, blob, coarse_torus, distance, info, number, ok, parse_csv, refused, run,
     scratch, triangles,
@@ -235,4 +236,43 @@ fn key_frames_stay_where_triboxes_or_tight_hulls_are_cut() {
         said.contains("key frames and moving vertices cannot be cut and are left out"),
         "{said}"
     );
+}
+
+#[test]
+fn contacts_at_a_frame_are_those_of_the_triangles_there() {
+    let directory = scratch("deform_overlap");
+    let [rest, bent] = frames(&directory);
+    assert!(build(&directory, &[&rest, &bent]).status.success());
+    let first = directory.join("bend.msw");
+    let second = directory.join("rest.msw");
+    ok(["build", arg(&rest), "-o", arg(&second), "--for", "hull"]);
+    let (from, to) = (triangles(&rest), triangles(&bent));
+    let poses = poses();
+    let texts: Vec<&str> = poses.iter().map(|(text, _)| text.as_str()).collect();
+    let mut counts = [0; 2];
+    for (frame, part) in [("0.25", 0.25), ("1", 1.0)] {
+        let between = |(a, b): (&Triangle, &Triangle)| {
+            std::array::from_fn(|i| std::array::from_fn(|k| a[i][k] + (b[i][k] - a[i][k]) * part))
+        };
+        let at: Vec<Triangle> = from.iter().zip(&to).map(between).collect();
+        let asked = ["overlap", arg(&first), arg(&second), "--frame", frame, "--pose"];
+        let answers = ok([&asked[..], &texts[..]].concat());
+        let rows = parse_csv(&answers, "pose,contact,first,second,work");
+        assert_eq!(rows.len(), poses.len());
+        for (row, (text, pose)) in rows.iter().zip(&poses) {
+            let pairs = meeting(&at, &from, pose);
+            match row[1].as_str() {
+                "apart" => assert!(pairs.is_empty(), "{text} {row:?}"),
+                "meets" => {
+                    let pair = (row[2].parse().unwrap(), row[3].parse().unwrap());
+                    assert!(pairs.contains(&pair), "{text} {row:?}");
+                }
+                contact => panic!("{text}: {contact}"),
+            }
+            counts[usize::from(row[1] == "meets")] += 1;
+        }
+    }
+    assert!(counts.iter().all(|&count| count > 3), "{counts:?}");
+    let wrong = run(["overlap", arg(&second), arg(&first), "--frame", "0", "--pose", texts[0]]);
+    refused(&wrong, 1, "rest.msw");
 }

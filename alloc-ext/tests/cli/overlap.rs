@@ -10,14 +10,14 @@ use std::fs;
 const HEADER: &str = "pose,contact,first,second,work";
 
 /// p ↦ R p + t, as the program takes a pose of exact numbers.
-type Rows = [[f64; 4]; 3];
+pub type Rows = [[f64; 4]; 3];
 
 fn moved(triangle: Triangle, rows: &Rows) -> Triangle {
     triangle.map(|p| rows.map(|[a, b, c, t]| a * p[0] + b * p[1] + c * p[2] + t))
 }
 
 /// Pairs of triangles in general position that meet: an edge of one crosses the other.
-fn meeting(first: &[Triangle], second: &[Triangle], rows: &Rows) -> BTreeSet<(usize, usize)> {
+pub fn meeting(first: &[Triangle], second: &[Triangle], rows: &Rows) -> BTreeSet<(usize, usize)> {
     let bounds = |t: &Triangle| {
         let of = |pick: fn(f64, f64) -> f64| -> [f64; 3] {
             std::array::from_fn(|k| t.iter().map(|p| p[k]).reduce(pick).unwrap())
@@ -45,7 +45,7 @@ fn meeting(first: &[Triangle], second: &[Triangle], rows: &Rows) -> BTreeSet<(us
 
 /// Poses of which every number is exact, as text and as rows: rotations by quaternions of small
 /// integers.
-fn poses() -> Vec<(String, Rows)> {
+pub fn poses() -> Vec<(String, Rows)> {
     let translations = [
         [2.25, 0.125, 0.5],
         [-1.5, 2.0, -0.25],

@@ -368,3 +368,129 @@ fn a_distance_to_keep_has_the_unit_that_it_names() {
     assert_eq!(alone.status.code(), Some(2));
     refused(&run(["trade", arg(&mesh), "--cpu", "m4f:168MHz"]), 2, "--cpu");
 }
+
+/// Distance of a point from the segments of closed polylines, in `D` dimensions.
+fn from_polylines<const D: usize>(point: &[f32], polylines: &[Vec<[f64; 3]>]) -> f64 {
+    let difference =
+        |a: &[f64; 3], b: &[f64; 3]| -> [f64; D] { std::array::from_fn(|k| a[k] - b[k]) };
+    let dot = |a: [f64; D], b: [f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let p = [0, 1, 2].map(|k| f64::from(point[k]));
+    let mut least = f64::INFINITY;
+    for points in polylines {
+        for (k, a) in points.iter().enumerate() {
+            let (along, to) = (difference(&points[(k + 1) % points.len()], a), difference(&p, a));
+            let t = (dot(along, to) / dot(along, along).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            let off: [f64; D] = std::array::from_fn(|k| to[k] - t * along[k]);
+            least = least.min(dot(off, off).sqrt());
+        }
+    }
+    least
+}
+
+#[test]
+fn rows_of_a_fence_are_those_of_the_blob_that_they_name() {
+    let directory = scratch("trade_fence");
+    let (file, points) = (directory.join("fence.csv"), directory.join("points.csv"));
+    let ring = |count: u32, middle: [f64; 2], radius: f64| -> Vec<[f64; 3]> {
+        let turn = |k| f64::from(k) * std::f64::consts::TAU / f64::from(count);
+        let wide = |k: u32| radius * (1.0 + 0.2 * f64::from(k % 3));
+        let at =
+            |k| [middle[0] + wide(k) * turn(k).cos(), middle[1] + wide(k) * turn(k).sin(), 0.0];
+        (0..count).map(at).collect()
+    };
+    let polylines = [ring(90, [0.0, 0.0], 40.0), ring(17, [5.0, 3.0], 6.0)];
+    let lines = polylines
+        .iter()
+        .map(|points| points.iter().map(|[x, y, z]| format!("{x},{y},{z}\n")).collect::<String>());
+    fs::write(&file, lines.collect::<Vec<_>>().join("\n")).unwrap();
+    let mut queries: Vec<[f32; 3]> = Vec::new();
+    for k in 0..60 {
+        let turn = 0.7 * k as f32;
+        let out = 1.1 * k as f32;
+        queries.push([out * turn.cos(), out * turn.sin(), if k % 4 == 0 { 3.0 } else { 0.0 }]);
+    }
+    write_csv(&points, &queries);
+    let trade = measured(&file, &["--closed", "--at", arg(&points)]);
+    assert_eq!((&trade["points"], &trade["segments"]), (&60.into(), &107.into()));
+    let find = |dials: &str| {
+        let is = |row: &&Value| row["structure"] == "curve, 16 bits" && row["dials"] == dials;
+        rows(&trade).iter().find(is).unwrap_or_else(|| panic!("no row {dials}"))
+    };
+    for row in rows(&trade) {
+        let is_verdict = row["dials"].as_str().is_some_and(|dials| dials.starts_with("within"));
+        assert_eq!(row["guaranteed"].is_null(), is_verdict, "{row}");
+        for of in ["found_lower", "found_upper"].into_iter().filter(|_| !is_verdict) {
+            let found = worst(row, of).expect("it is measured");
+            assert!(found <= worst(row, "guaranteed").unwrap() * (1.0 + 1e-12), "{row}");
+        }
+    }
+    let blob = directory.join("fence.msw");
+    let build: Vec<&str> = find("exact")["build"].as_str().unwrap().split(' ').collect();
+    ok([&["build", arg(&file), "--closed", "-o", arg(&blob)], &build[..]].concat());
+    assert_eq!(fs::metadata(&blob).unwrap().len(), find("exact")["flash"].as_u64().unwrap());
+    let closest = "x,y,z,lower,upper,px,py,pz,polyline,segment,safe_motion,work";
+    // With more memory than suffices the program searches in another order.
+    let entries = find("exact")["scratch_bytes"].as_u64().unwrap() / 8;
+    let entries = ["--scratch".to_owned(), entries.to_string()];
+    let entries = entries.each_ref().map(String::as_str);
+    for (dials, options) in
+        [("exact", [].as_slice()), ("rel 0.1", &["--rel", "0.1"]), ("steps 4", &["--steps", "4"])]
+    {
+        let row = find(dials);
+        let answers = ok([&["closest", arg(&blob), arg(&points)], options, &entries].concat());
+        let (mut width, mut low, mut work) = (0f64, 0f64, 0f64);
+        for (answer, query) in parse_csv(&answers, closest).iter().zip(&queries) {
+            let [lower, upper] = [number(&answer[3]), number(&answer[4])];
+            width = width.max(upper - lower);
+            low = low.max(from_polylines::<3>(query, &polylines) - lower);
+            work += number(&answer[11]) / 60.0;
+        }
+        let guaranteed = worst(row, "guaranteed").unwrap();
+        assert!((guaranteed - width).abs() <= 1e-12 * width, "{dials}: {guaranteed} {width}");
+        assert!((worst(row, "found_lower").unwrap() - low).abs() < 1e-6, "{dials}: {low}");
+        let told = row["work"].as_object().unwrap().values().map(|x| x.as_f64().unwrap());
+        assert!((told.sum::<f64>() - work).abs() < 1e-6, "{dials}: {work}");
+        // The costliest query that was found costs what it says, and more than a mean one.
+        let of = &row["worst"];
+        let query: Vec<String> =
+            of["query"].as_array().unwrap().iter().map(|x| x.to_string()).collect();
+        let answers = ok([&["closest", arg(&blob), &query.join(",")], options, &entries].concat());
+        let found = number(&parse_csv(&answers, closest)[0][11]);
+        assert_eq!(Some(found), of["work"].as_f64(), "{dials}");
+        assert!(found >= work - 1e-6, "{dials}: {found} {work}");
+    }
+    let undecided =
+        |answers: &str| answers.lines().filter(|line| line.contains("undecided")).count();
+    let in_plane = directory.join("plane.csv");
+    write_csv(&in_plane, &queries.iter().map(|&[x, y, _]| [x, y]).collect::<Vec<_>>());
+    let asked = ["signed", arg(&blob), arg(&in_plane), "--steps", "4"];
+    let signed = ok([&asked[..], &entries].concat());
+    assert_eq!(find("signed, steps 4")["undecided"], undecided(&signed));
+    assert!(undecided(&signed) > 0, "{signed}");
+    let flat = |query: &[f32; 3]| from_polylines::<2>(query, &polylines);
+    let (mut low, mut queries) = (0f64, queries.iter());
+    for line in ok(["signed", arg(&blob), arg(&in_plane)]).lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let ends = [number(fields[4]), number(fields[5])];
+        let lower = if ends[0] * ends[1] < 0.0 { 0.0 } else { ends[0].abs().min(ends[1].abs()) };
+        low = low.max(flat(queries.next().unwrap()) - lower);
+    }
+    assert!((worst(find("signed, exact"), "found_lower").unwrap() - low).abs() < 1e-6, "{low}");
+    let dials = |row: &&Value| {
+        let dials = row["dials"].as_str().unwrap();
+        dials.starts_with("within") && dials.ends_with("steps 4")
+    };
+    for row in rows(&trade).iter().filter(dials) {
+        let dials = row["dials"].as_str().unwrap();
+        let distance = dials.split([' ', ',']).nth(1).unwrap();
+        let within = ["within", arg(&blob), arg(&points), "--distance", distance, "--steps", "4"];
+        let answers = ok([&within[..], &entries].concat());
+        assert_eq!(row["undecided"], undecided(&answers), "{dials}");
+    }
+    // Kept searches are among the rows of points in their order; they have no worst query.
+    assert!(find("coherent")["worst"].is_null());
+    let line = refused(&run(["trade", arg(&file), "--for", "segment"]), 2, "segment");
+    assert!(line.contains("meshes"), "{line}");
+    let mesh = coarse_torus(&directory);
+    refused(&run(["trade", arg(&mesh), "--closed"]), 2, "--closed");
+}

@@ -1,8 +1,8 @@
 //! `--triboxes` of the commands that ask: no answer denies what brute force finds.
 
 use crate::support::{
-    Triangle, arg, distance, first_crossing, info, number, ok, parse_csv, random_queries, refused,
-    run, scratch, triangles, wide, write_csv,
+    Triangle, arg, distance, first_crossing, fixture, info, number, ok, parse_csv, random_queries,
+    refused, run, scratch, triangles, wide, write_csv,
 };
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -54,6 +54,33 @@ fn a_block_that_lies_askew_is_one_turned_tribox_and_is_proved() {
     let copy = directory.join("cut.msw");
     ok(["cut", arg(&blob), "--triboxes", "1", "-o", arg(&copy)]);
     assert_eq!(info(&copy)["triboxes"]["orientation"], stored["orientation"]);
+}
+
+#[test]
+fn build_says_what_extrema_gained_as_two_builds_differ() {
+    let directory = scratch("triboxes_extrema");
+    let mesh = fixture("groove.obj");
+    let build = |name: &str, more: &[&str]| {
+        let blob = directory.join(name);
+        let options = ["build", arg(&mesh), "-o", arg(&blob), "--for", "triboxes"];
+        let text = ok([&options[..], &["--triboxes", "8"], more].concat());
+        let levels = info(&blob)["triboxes"]["levels"].as_array().unwrap().clone();
+        (text, 100.0 * levels.last().unwrap()["void_ratio"].as_f64().unwrap())
+    };
+    let (plain, before) = build("plain.msw", &[]);
+    let (tried, after) = build("tried.msw", &["--extrema"]);
+    assert!(!plain.contains("--extrema"), "{plain}");
+    let (_, told) = tried.split_once("  gained by --extrema: void ").expect("it says so");
+    let told: Vec<f64> = told
+        .split(" %")
+        .take(2)
+        .map(|part| part.trim_start_matches(" before, ").parse().unwrap())
+        .collect();
+    assert!(after < before, "{tried}");
+    for (told, stored) in told.iter().zip([before, after]) {
+        assert!((told - stored).abs() <= 0.01 * stored + 0.06, "{told} {stored}: {tried}");
+    }
+    assert_eq!(told.len(), 2);
 }
 
 #[test]

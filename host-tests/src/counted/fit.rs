@@ -13,6 +13,7 @@ use meshsweep_core::{Blob, Budget, QueryError, Work};
 use meshsweep_counted::placed::{answers, expected};
 use meshsweep_suite::ask::placed::{Answer, Question};
 
+use super::fit_curves::{OfCurves, questions as questions_of_curves};
 use super::placed::written;
 use crate::generate::{
     Rng, Triangles, cube, needle_comb, rough_sphere, torus, two_parts, uv_sphere,
@@ -48,24 +49,33 @@ pub fn fit(fixtures: &Path, folder: &Path, others: &[&str]) -> Result<String, St
             }
             for Asked { question, budget, other, places, dials } in all {
                 let laid = written(question, &bytes, &other, &places);
-                let rows = rows(&laid, &bytes, search, budget)?;
-                let expected = expected(&laid, QUERIES)?;
-                let all = [
-                    ("bin", laid.as_slice()),
-                    ("rows", rows.as_bytes()),
-                    ("expected", expected.as_bytes()),
-                ];
-                for (ending, bytes) in all {
-                    let file = folder.join(format!("{number}.{ending}"));
-                    let failed = |error| format!("{}: {error}", file.display());
-                    std::fs::write(&file, bytes).map_err(failed)?;
-                }
+                keep(folder, number, &laid, &rows(&laid, &bytes, search, budget)?)?;
                 let _ = writeln!(lines, "{search:?}\t{role}\t{}\t{dials}", subject.name);
                 number += 1;
             }
         }
     }
+    for OfCurves { role, name, search, blob, question, budget, places, at } in
+        questions_of_curves(QUERIES)?
+    {
+        let laid = written(question, &blob, &[], &places);
+        keep(folder, number, &laid, &rows(&laid, &blob, search, budget)?)?;
+        let _ = writeln!(lines, "{search:?}\t{role}\t{name}\t{at} {}", dials(budget));
+        number += 1;
+    }
     Ok(lines)
+}
+
+/// Writes the files of a question.
+fn keep(folder: &Path, number: usize, laid: &[u8], rows: &str) -> Result<(), String> {
+    let expected = expected(laid, QUERIES)?;
+    let all = [("bin", laid), ("rows", rows.as_bytes()), ("expected", expected.as_bytes())];
+    for (ending, bytes) in all {
+        let file = folder.join(format!("{number}.{ending}"));
+        let failed = |error| format!("{}: {error}", file.display());
+        std::fs::write(&file, bytes).map_err(failed)?;
+    }
+    Ok(())
 }
 
 /// Meshes to fit to, then meshes to test on.
@@ -111,7 +121,11 @@ fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
         }
         Search::Tight => Recipe::Tight(200),
         Search::Triboxes | Search::PairOfTriboxes => Recipe::Triboxes(64),
-        Search::Field => return None,
+        Search::Field
+        | Search::Curve
+        | Search::KeptCurve
+        | Search::CurveWithin
+        | Search::CurveSigned => return None,
     };
     let source = Source::of(raw, None).ok()?;
     let built = trade::build(recipe, &source, &source.repaired().ok()?);
@@ -230,7 +244,14 @@ fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
         Search::FirstHitOfHull => {
             vec![(Far, exact), (Near, exact), (Path, exact), (Far, steps(32))]
         }
-        Search::PairOfTrees | Search::PairOfTriboxes | Search::Field => Vec::new(),
+        // Questions about two models are listed apart, and so are those about curves.
+        Search::PairOfTrees
+        | Search::PairOfTriboxes
+        | Search::Field
+        | Search::Curve
+        | Search::KeptCurve
+        | Search::CurveWithin
+        | Search::CurveSigned => Vec::new(),
         Search::Tight => vec![(Far, exact), (Near, exact), (Near, steps(8)), (Far, steps(4))],
     }
 }
@@ -247,7 +268,10 @@ fn question(search: Search, budget: Budget) -> Question {
         Search::FirstHit | Search::FirstHitF32 => Question::FirstHit(budget),
         Search::FirstHitOfHull => Question::FirstHitOfHull(budget),
         Search::Field => Question::Field,
-        Search::Triboxes | Search::PairOfTrees | Search::PairOfTriboxes => {
+        Search::Curve => Question::Curve(budget),
+        Search::KeptCurve => Question::KeptCurve(budget),
+        Search::CurveSigned => Question::CurveSigned(budget),
+        Search::Triboxes | Search::PairOfTrees | Search::PairOfTriboxes | Search::CurveWithin => {
             Question::Triboxes(budget)
         }
     }
@@ -281,6 +305,9 @@ fn rows(laid: &[u8], blob: &[u8], search: Search, budget: Budget) -> Result<Stri
         Search::Triboxes | Search::PairOfTriboxes => {
             Shape::of_triboxes(&blob.triboxes().map_err(said)?)
         }
+        Search::Curve | Search::KeptCurve | Search::CurveWithin | Search::CurveSigned => {
+            Shape::of_curve(&blob.curve().map_err(said)?)
+        }
         _ => Shape::of_tree(&blob.bvh().map_err(said)?),
     };
     let mut rows = String::new();
@@ -291,6 +318,9 @@ fn rows(laid: &[u8], blob: &[u8], search: Search, budget: Budget) -> Result<Stri
             Answer::Within(found) => found.work,
             Answer::Farther(found) => found.work,
             Answer::Hit(hit) => hit.work,
+            Answer::Curve(near) => near.work,
+            Answer::OfCurve(found) => found.work,
+            Answer::Fence(found) => found.closest.work,
             _ => Work::NONE,
         };
         let features = match search {

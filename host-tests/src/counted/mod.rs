@@ -2,6 +2,7 @@
 //! queries. `meshsweep-counted` asks them.
 
 mod fit;
+mod fit_curves;
 mod placed;
 
 use meshsweep::progress::Watch;

@@ -132,6 +132,7 @@ const BUILDER: [(&str, &[&str]); 28] = [
             "surface",
             "load",
             "hull",
+            "curve",
             "builder",
         ],
     ),

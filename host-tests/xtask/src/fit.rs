@@ -262,7 +262,8 @@ fn head() -> String {
     "//! Fitted costs. `cargo xtask fit` writes this file, from instructions that QEMU counts. The\n\
      //! costs are in the order of `FEATURES`. They are fitted to `bracket.stl`, `groove.obj` and\n\
      //! `torus.ply` of `fixtures` and to five meshes that `host-tests/src/counted/fit.rs`\n\
-     //! generates. That file also names the meshes that `error` and `typical` are of.\n\n\
+     //! generates, and to the curves of `fit_curves.rs`. These files also name the meshes and curves\n\
+     //! that `error` and `typical` are of.\n\n\
      use super::cost::{Board, Cost, Search};\n\n\
      /// Costs by board and search.\n\
      pub(super) const COSTS: &[(Board, Search, Cost)] = &[\n"

@@ -6,13 +6,17 @@ use crate::failure::Failure;
 use crate::poses;
 use crate::served::Both;
 use crate::{blob_file, served, triboxes};
-use meshsweep_core::{Ended, TrianglePair, Verdict, Work};
+use meshsweep_core::{
+    Blob, Decided, Ended, Pose, QueryError, ScratchEntry, TrianglePair, Verdict, Work,
+};
 use std::io::{self, Write};
 
 // Words of the column `contact`.
 const APART: &str = "apart";
 const MEETS: &str = "meets";
 const UNDECIDED: &str = "undecided";
+
+const HEADER: &str = "pose,contact,first,second,work";
 
 /// Pairs that fit the buffer at first.
 const PAIRS: usize = 256;
@@ -24,22 +28,41 @@ pub fn run(args: &OverlapArgs) -> Result<(), Failure> {
     if args.triboxes {
         return triboxes::overlap(args, &blobs);
     }
+    if let Some(frame) = args.frame {
+        return at_frame(args, &blobs, frame);
+    }
     let tree_chosen = args.engine.map(|engine| engine == Engine::Tree);
     let models = served::choose_both([first, second], &blobs, tree_chosen)?;
     let poses = poses::read(&args.input)?;
-    let question = Question::new("pose,contact,first,second,work", poses, &args.search);
-    if args.all { ask_all(args, models, question) } else { ask_any(args, models, question) }
+    let question = Question::new(HEADER, poses, &args.search);
+    if args.all {
+        return ask_all(args, models, question);
+    }
+    let budget = args.search.budget();
+    ask_any(question, models.entries(), |pose, scratch| models.overlap(pose, budget, scratch))
+}
+
+/// Asks the first mesh at a key frame.
+fn at_frame(args: &OverlapArgs, blobs: &[Blob<'_>; 2], frame: f32) -> Result<(), Failure> {
+    let MovedArgs { first, second, .. } = &args.input;
+    let [blob, other] = blobs;
+    let (hull, _) = served::require_frame(first, blob, frame)?;
+    let other = served::require_hull(second, other)?;
+    let entries = served::require_hull(first, blob)?.overlap_entries(&other);
+    let question = Question::new(HEADER, poses::read(&args.input)?, &args.search);
+    let budget = args.search.budget();
+    ask_any(question, entries, |pose, scratch| hull.overlap(&other, pose, budget, scratch))
 }
 
 /// Asks whether the meshes meet.
 fn ask_any(
-    OverlapArgs { search, .. }: &OverlapArgs,
-    models: Both<'_>,
     question: Question<'_, 12>,
+    entries: usize,
+    ask: impl Fn(Pose, &mut [ScratchEntry]) -> Result<Decided<[u32; 2]>, QueryError> + Sync,
 ) -> Result<(), Failure> {
     question.ask_each(
-        models.entries(),
-        |row, scratch| models.overlap(poses::of_row(row), search.budget(), scratch),
+        entries,
+        |row, scratch| ask(poses::of_row(row), scratch),
         |out, query, _, found| {
             let contact = match found.verdict {
                 Verdict::Yes => MEETS,

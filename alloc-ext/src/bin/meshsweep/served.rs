@@ -12,7 +12,7 @@ use std::path::Path;
 type Serves = fn(&Blob<'_>) -> bool;
 
 /// The questions, by the names of the commands.
-const QUESTIONS: [(&str, Serves); 23] = [
+const QUESTIONS: [(&str, Serves); 24] = [
     ("closest", |blob| has_distances(blob) || blob.hull().is_ok() || blob.curve().is_ok()),
     ("closest --frame", |blob| blob.deformable_hull().is_ok()),
     ("within", |blob| has_distances(blob) || blob.curve().is_ok() || blob.sdf().is_ok()),
@@ -28,6 +28,7 @@ const QUESTIONS: [(&str, Serves); 23] = [
     ("segment", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
     ("segment --frame", |blob| blob.deformable_hull().is_ok()),
     ("overlap", |blob| tree(blob, BuildFor::Segment).is_some() || blob.hull().is_ok()),
+    ("overlap --frame", |blob| blob.deformable_hull().is_ok()),
     ("clear", |blob| tree(blob, BuildFor::Segment).is_some()),
     ("clearance", |blob| tree(blob, BuildFor::Segment).is_some()),
     ("cull", |blob| tree(blob, BuildFor::Cull).is_some()),

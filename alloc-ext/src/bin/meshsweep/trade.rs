@@ -2,6 +2,7 @@
 //! two meshes tell that they keep a distance.
 
 pub mod choose;
+mod curve;
 mod measured;
 mod pair;
 mod report;
@@ -22,6 +23,13 @@ pub fn run(args: &TradeArgs) -> Result<(), Failure> {
         let what = "--cpu: times are of two meshes; the table of one has instructions, and build \
                     --rate with --cpu chooses a setting for it";
         return Err(Failure::Usage { what: what.to_owned() });
+    }
+    if args.is_curve() {
+        return curve::run(args);
+    }
+    if args.closed {
+        let what = "--closed: it joins the ends of curves, which are .csv".to_owned();
+        return Err(Failure::Usage { what });
     }
     mesh_file::check_format(&[&args.mesh], &args.read)?;
     let mesh = mesh_file::named(&args.mesh, &args.read)?;

@@ -66,10 +66,8 @@ fn split<'a>(
     let mut gains = Vec::new();
     if args.split.extrema {
         let (plain, _) = Grown::new(&loaded.mesh, &args.plain(), None)?;
-        let before = Total::of(&plain.hierarchy);
-        let after = oriented.map_or_else(|| Total::of(&grown.hierarchy), |gain| gain.before);
         let is_by_error = args.split.tribox_error.is_some();
-        let gain = Gain::of(before, after, plain.hierarchy.measure, is_by_error);
+        let gain = Gain::of_planes(&plain.hierarchy, &grown.hierarchy, oriented, is_by_error);
         gains.push(("--extrema".to_owned(), gain));
     }
     if let (Some(measure), Some(gain)) = (args.split.orient, oriented) {

@@ -1,7 +1,10 @@
 //! Questions to the curves of a blob.
 
 pub use meshsweep_core::Curve;
-use meshsweep_core::{Budget, CurveClosest, CurveNeighbor, CurveSegment, ScratchEntry, Side};
+use meshsweep_core::{
+    Budget, CurveClosest, CurveNeighbor, CurveSegment, CurveSignedDistance, Decided, ScratchEntry,
+    Side,
+};
 
 use super::{Asked, Refused, Subject, how, verdict};
 use crate::fold::Fold;
@@ -81,7 +84,7 @@ pub fn contents(curve: &Curve<'_>, fold: &mut Fold) {
     fold.f32(curve.surface_error());
 }
 
-fn closest_point(fold: &mut Fold, answer: &CurveClosest) {
+pub(super) fn closest_point(fold: &mut Fold, answer: &CurveClosest) {
     fold.f32(answer.distance.lower);
     fold.f32(answer.distance.upper);
     fold.point(answer.point);
@@ -154,13 +157,12 @@ pub fn is_within(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Observer>,
 ) {
-    to.answer(
-        || curve.within(p, distance, Budget::EXACT, scratch),
-        |fold, answer| {
-            segment(fold, answer.witness);
-            verdict(fold, answer.verdict);
-        },
-    );
+    to.answer(|| curve.within(p, distance, Budget::EXACT, scratch), of_verdict);
+}
+
+pub(super) fn of_verdict(fold: &mut Fold, answer: &Decided<CurveSegment>) {
+    segment(fold, answer.witness);
+    verdict(fold, answer.verdict);
 }
 
 /// Whether the fence allows a point, and how far its line is.
@@ -171,19 +173,18 @@ pub fn signed(
     scratch: &mut Scratch,
     to: &mut Asked<'_, impl Observer>,
 ) {
-    to.answer(
-        || curve.signed_distance([x, y], Budget::EXACT, scratch),
-        |fold, answer| {
-            fold.f32(answer.distance.lower);
-            fold.f32(answer.distance.upper);
-            fold.word(match answer.side {
-                Side::Outside => 1,
-                Side::Inside => 2,
-                _ => 0,
-            });
-            closest_point(fold, &answer.closest);
-        },
-    );
+    to.answer(|| curve.signed_distance([x, y], Budget::EXACT, scratch), signed_distance);
+}
+
+pub(super) fn signed_distance(fold: &mut Fold, answer: &CurveSignedDistance) {
+    fold.f32(answer.distance.lower);
+    fold.f32(answer.distance.upper);
+    fold.word(match answer.side {
+        Side::Outside => 1,
+        Side::Inside => 2,
+        _ => 0,
+    });
+    closest_point(fold, &answer.closest);
 }
 
 fn neighbors(fold: &mut Fold, found: &[CurveNeighbor]) {

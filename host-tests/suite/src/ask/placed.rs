@@ -6,9 +6,10 @@
 use core::mem::size_of;
 
 use meshsweep_core::{
-    Blob, Budget, Bvh, BvhWithSdf, ClosestPoint, CoherentQuery, Decided, DistanceBounds, Facing,
-    FieldDistance, FirstHit, Focus, Hint, Hull, Pose, QueryError, RefinedHull, Refinement,
-    ScratchEntry, Separation, SplitChange, TriboxBound, UnitDistance,
+    Blob, Budget, Bvh, BvhWithSdf, ClosestPoint, CoherentQuery, Curve, CurveClosest, CurveSegment,
+    CurveSignedDistance, Decided, DistanceBounds, Facing, FieldDistance, FirstHit, Focus, Hint,
+    Hull, Pose, QueryError, RefinedHull, Refinement, ScratchEntry, Separation, SplitChange,
+    TriboxBound, UnitDistance,
 };
 
 use super::{Refused, timed};
@@ -57,6 +58,14 @@ pub enum Question {
     ClosestOfBoth(Budget),
     /// Bounds of the distance from box tree and field.
     BoundsOfBoth(Budget),
+    /// The closest point of curves.
+    Curve(Budget),
+    /// The same by one search that moves from place to place.
+    KeptCurve(Budget),
+    /// Whether curves are within a distance, in at most so many steps.
+    CurveWithin(f32, u32),
+    /// The signed distance of a fence. The z of a place is not asked.
+    CurveSigned(Budget),
 }
 
 impl Question {
@@ -84,6 +93,10 @@ impl Question {
             Self::WithinOfBoth(distance) => [16, distance.to_bits(), 0, 0],
             Self::ClosestOfBoth(budget) => of(17, budget),
             Self::BoundsOfBoth(budget) => of(18, budget),
+            Self::Curve(budget) => of(19, budget),
+            Self::KeptCurve(budget) => of(20, budget),
+            Self::CurveWithin(distance, steps) => [21, distance.to_bits(), 0, steps],
+            Self::CurveSigned(budget) => of(22, budget),
         }
     }
 
@@ -120,6 +133,10 @@ impl Question {
             16 => Self::WithinOfBoth(first),
             17 => Self::ClosestOfBoth(budget),
             18 => Self::BoundsOfBoth(budget),
+            19 => Self::Curve(budget),
+            20 => Self::KeptCurve(budget),
+            21 => Self::CurveWithin(first, steps),
+            22 => Self::CurveSigned(budget),
             _ => return None,
         })
     }
@@ -233,6 +250,12 @@ pub enum Answer {
     Decided(Decided<u32>),
     /// Bounds of a distance.
     Bounds(DistanceBounds),
+    /// A closest point of curves.
+    Curve(CurveClosest),
+    /// Whether curves are within a distance.
+    OfCurve(Decided<CurveSegment>),
+    /// A signed distance of a fence.
+    Fence(CurveSignedDistance),
     /// A refusal.
     Refused(QueryError),
 }
@@ -259,6 +282,9 @@ impl Answer {
             Self::Units(found) => super::sdf::unit_distance(fold, *found),
             Self::Decided(answer) => super::verdict(fold, answer.verdict),
             Self::Bounds(found) => super::both::distance_bounds(fold, found),
+            Self::Curve(found) => super::curve::closest_point(fold, found),
+            Self::OfCurve(found) => super::curve::of_verdict(fold, found),
+            Self::Fence(found) => super::curve::signed_distance(fold, found),
             Self::Refused(error) => super::refusal(fold, *error),
         }
     }
@@ -392,6 +418,26 @@ pub fn ask<'t>(
             let ask = |place, stack: &mut [_]| both.distance_bounds(place, budget, stack);
             by_entries(&mut memory.entries, entries, asking, ask, Answer::Bounds)
         }
+        Question::Curve(budget) => {
+            let curve = curve(&blob)?;
+            let ask = |place, queue: &mut [_]| curve.closest_point(place, budget, queue);
+            let entries = curve.scratch_entries();
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Curve)
+        }
+        Question::CurveWithin(distance, steps) => {
+            let (curve, budget) = (curve(&blob)?, Budget::EXACT.with_steps(steps));
+            let ask = |place, queue: &mut [_]| curve.within(place, distance, budget, queue);
+            let entries = curve.scratch_entries();
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::OfCurve)
+        }
+        Question::CurveSigned(budget) => {
+            let curve = curve(&blob)?;
+            let ask =
+                |[x, y, _]: [_; 3], queue: &mut [_]| curve.signed_distance([x, y], budget, queue);
+            let entries = curve.scratch_entries();
+            by_entries(&mut memory.entries, entries, asking, ask, Answer::Fence)
+        }
+        Question::KeptCurve(budget) => kept_curve(&curve(&blob)?, budget, memory, asking),
         Question::KeptSweep(budget) => kept_sweep(&hull(&blob)?, budget, memory, asking),
         Question::Refine(radius, error) => refine(&hull(&blob)?, (radius, error), memory, asking),
     }
@@ -442,6 +488,10 @@ fn hull<'t>(blob: &Blob<'t>) -> Result<Hull<'t>, Refused> {
     blob.hull().map_err(|_| Refused::NO_SECTION)
 }
 
+fn curve<'t>(blob: &Blob<'t>) -> Result<Curve<'t>, Refused> {
+    blob.curve().map_err(|_| Refused::NO_SECTION)
+}
+
 const fn bytes(entries: usize) -> usize {
     entries.saturating_mul(size_of::<ScratchEntry>())
 }
@@ -475,6 +525,23 @@ fn kept_sweep(
         sweep.closest_point(budget)
     };
     asking.each(ask, Answer::Closest);
+    Ok(bytes(ENTRIES))
+}
+
+#[inline(never)]
+fn kept_curve(
+    curve: &Curve<'_>,
+    budget: Budget,
+    memory: &mut Memory<'_>,
+    asking: Asking<'_, impl Iterator<Item = [f32; 3]> + Clone, impl Observer, impl FnMut(&Answer)>,
+) -> Result<usize, Refused> {
+    let begin = asking.places.clone().next().unwrap_or_default();
+    let mut sweep = curve.sweep(begin, &mut memory.entries).map_err(|_| Refused::MEMORY)?;
+    let ask = |place| {
+        sweep.move_to(place)?;
+        sweep.closest_point(budget)
+    };
+    asking.each(ask, Answer::Curve);
     Ok(bytes(ENTRIES))
 }
 

@@ -319,6 +319,17 @@ pub struct OverlapArgs {
     /// Ask the blobs' triboxes, which can tell that the meshes are apart, and nothing else
     #[arg(long, conflicts_with = "engine")]
     pub triboxes: bool,
+    /// Key frame of the first blob, which was built --for deform, from 0
+    ///
+    /// 1.25 is a quarter of the way from frame 1 to frame 2. The second blob's hull hierarchy is
+    /// asked, at rest.
+    #[arg(
+        long,
+        value_name = "FRAME",
+        value_parser = frame,
+        conflicts_with_all = ["all", "engine", "triboxes"]
+    )]
+    pub frame: Option<f32>,
     #[command(flatten)]
     pub search: SearchArgs,
 }

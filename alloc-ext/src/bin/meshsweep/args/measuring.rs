@@ -5,14 +5,14 @@ use super::reading::{ReadArgs, ThreadArgs};
 use super::values::{distance, question, whole};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use meshsweep::builder::For;
+use meshsweep::builder::{Builder, For};
 use meshsweep::mesh::Unit;
 use meshsweep::trade::{Board, Cpu, Limits, Points, Question};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct TradeArgs {
-    /// Mesh file; or - for the standard input, with --format
+    /// Mesh file; points of curves: .csv; or - for the standard input, with --format
     pub mesh: PathBuf,
     /// Second mesh file, to be moved: which structures tell that it keeps a distance
     #[arg(requires_all = ["poses", "keep"], conflicts_with_all = ["at", "points", "report", "serves"])]
@@ -52,6 +52,9 @@ pub struct TradeArgs {
     /// Number of points or segments, unless they are from a file
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole::<1, 1_000_000>)]
     pub points: u32,
+    /// Of curves: join the last point of each polyline with its first; zones always are
+    #[arg(long, conflicts_with = "other")]
+    pub closed: bool,
     #[command(flatten)]
     pub read: ReadArgs,
     /// Write a page with pictures too: one HTML file, which needs no network
@@ -77,6 +80,16 @@ pub fn measured(of: For) -> Option<Question> {
 }
 
 impl TradeArgs {
+    /// Whether curves are measured.
+    pub fn is_curve(&self) -> bool {
+        self.read.format == Some("csv") || Builder::new().builds_curve(&self.mesh)
+    }
+
+    /// Whether segments are to be asked.
+    pub fn asks_segments(&self) -> bool {
+        self.serves == For::Segment
+    }
+
     /// The question.
     pub fn question(&self) -> Question {
         measured(self.serves).unwrap_or(Question::ClosestPoint)

@@ -11,7 +11,7 @@ use std::num::NonZeroUsize;
 pub struct ReadArgs {
     /// Format of a mesh from the standard input, which is named '-'
     ///
-    /// One of stl, ply, obj, off, glb, gltf, 3mf and dae; for build and verify also csv.
+    /// One of stl, ply, obj, off, glb, gltf, 3mf and dae; for build, verify and trade also csv.
     #[arg(
         long,
         value_name = "FORMAT",
@@ -27,7 +27,7 @@ pub struct ReadArgs {
     pub unit: Option<Unit>,
 }
 
-/// Points of curves, a format of build and verify.
+/// Points of curves, a format of build, verify and trade.
 const CURVE: &str = "csv";
 
 fn format(name: String) -> &'static str {

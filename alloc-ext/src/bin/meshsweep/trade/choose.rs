@@ -58,8 +58,8 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
     };
     writeln!(out, "chosen: {}", first.setting)?;
     let of = match first.setting.question {
-        Question::ClosestPoint => "points",
         Question::FirstHit => "segments",
+        _ => "points",
     };
     writeln!(out, "  why: {why}, at {points} {of} {kind}")?;
     write_costs(out, limits, first)?;

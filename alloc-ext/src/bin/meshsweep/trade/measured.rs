@@ -34,23 +34,22 @@ pub fn measured(
     let loaded = source.repaired().map_err(|error| Failure::build(file, error))?;
     let mesh = &loaded.mesh;
     let (points, kind, words) = match (at, question) {
-        (At::Made(kind), Question::ClosestPoint) => {
-            (trade::points(mesh, *kind, count), Some(*kind), said(*kind).to_owned())
-        }
         (At::Made(kind), Question::FirstHit) => {
             (trade::segments(mesh, *kind, count), Some(*kind), said_of_segments(*kind).to_owned())
         }
-        (At::File(path), Question::ClosestPoint) => (rows::<3>(path)?, None, of_file(path)),
-        (At::File(path), Question::FirstHit) => (rows::<6>(path)?, None, of_file(path)),
+        (At::File(path), Question::FirstHit) => (rows_of::<6>(path)?, None, of_file(path)),
+        (At::Made(kind), _) => {
+            (trade::points(mesh, *kind, count), Some(*kind), said(*kind, "mesh"))
+        }
+        (At::File(path), _) => (rows_of::<3>(path)?, None, of_file(path)),
     };
     if points.is_empty() {
-        let what = format!("{}: there is nothing to ask at", file.display());
-        return Err(Failure::Usage { what });
+        return Err(say_nothing(file));
     }
     let diagonal = trade::diagonal(mesh);
     let settings = match question {
-        Question::ClosestPoint => trade::standard(diagonal, mesh.triangles.len(), kind),
         Question::FirstHit => trade::standard_of_segments(),
+        _ => trade::standard(diagonal, mesh.triangles.len(), kind),
     };
     // Its length is known at the first step.
     let bar = Mutex::new(None);
@@ -67,12 +66,17 @@ pub fn measured(
 }
 
 /// All numbers of a file, in points.
-fn rows<const N: usize>(path: &Path) -> Result<Vec<[f32; 3]>, Failure> {
+pub fn rows_of<const N: usize>(path: &Path) -> Result<Vec<[f32; 3]>, Failure> {
     let queries = Queries::<N>::read(&[Given::File(path.to_owned())])?;
     match queries.broken {
         Some(failure) => Err(failure),
         None => Ok(queries.rows.as_flattened().as_chunks().0.to_vec()),
     }
+}
+
+/// There are no points.
+pub fn say_nothing(file: &Path) -> Failure {
+    Failure::Usage { what: format!("{}: there is nothing to ask at", file.display()) }
 }
 
 fn of_file(path: &Path) -> String {
@@ -87,10 +91,12 @@ fn said_of_segments(points: Points) -> &'static str {
     }
 }
 
-fn said(points: Points) -> &'static str {
+/// The kind of points about a mesh or a curve, in words.
+pub fn said(points: Points, of: &str) -> String {
+    let surface = if of == "mesh" { "surface" } else { of };
     match points {
-        Points::Far => "far: in a box twice the mesh's",
-        Points::Near => "near the surface",
-        Points::Path => "along a path near the surface",
+        Points::Far => format!("far: in a box twice the {of}'s"),
+        Points::Near => format!("near the {surface}"),
+        Points::Path => format!("along a path near the {surface}"),
     }
 }

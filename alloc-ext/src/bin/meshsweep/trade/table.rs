@@ -30,10 +30,23 @@ const COLUMNS: [(&str, usize); 11] = [
 /// The column of segments alone, and its place among the columns.
 const UNDECIDED: (usize, (&str, usize)) = (2, ("undecided", 9));
 
-/// Headings of a question.
-fn columns(question: Question) -> Vec<(&'static str, usize)> {
+/// Whether a table has a column of what is undecided.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Shown {
+    Undecided,
+    Plain,
+}
+
+impl Shown {
+    fn of(question: Question) -> Self {
+        if question == Question::FirstHit { Self::Undecided } else { Self::Plain }
+    }
+}
+
+/// Headings of a table.
+pub(super) fn columns(shown: Shown) -> Vec<(&'static str, usize)> {
     let mut columns = COLUMNS.to_vec();
-    if question == Question::FirstHit {
+    if shown == Shown::Undecided {
         columns.insert(UNDECIDED.0, UNDECIDED.1);
     }
     columns
@@ -66,7 +79,8 @@ pub fn write(
         "\nnothing else has as small an error, as few instructions of a Cortex-M4F and as little \
          flash"
     )?;
-    let columns = columns(*question);
+    let shown = Shown::of(*question);
+    let columns = columns(shown);
     write_rows(out, best.iter().filter_map(|&i| trade.rows.get(i)), &columns, width)?;
     writeln!(out, "\nall")?;
     write_rows(out, trade.rows.iter(), &columns, width)?;
@@ -93,7 +107,7 @@ fn write_rows<'r>(
     write_line(out, &named("structure", "dials"), columns, &headings)?;
     rows.into_iter().try_for_each(|row| {
         let name = named(&row.setting.recipe.name(), &dials(row));
-        write_line(out, &name, columns, &cells(row))
+        write_line(out, &name, columns, &cells(row, Shown::of(row.setting.question)))
     })
 }
 
@@ -120,7 +134,7 @@ pub(super) fn write_line(
     writeln!(out)
 }
 
-fn cells(row: &Row) -> Vec<String> {
+pub(super) fn cells(row: &Row, shown: Shown) -> Vec<String> {
     let most = |spread: Option<Spread>| {
         spread.map_or("-".to_owned(), |spread| AtMost(spread.most).to_string())
     };
@@ -132,7 +146,8 @@ fn cells(row: &Row) -> Vec<String> {
     let mut cells = vec![
         most(row.guaranteed),
         median(row.guaranteed),
-        most(Some(row.found_lower)),
+        // A verdict has no interval.
+        most(Some(row.found_lower).filter(|_| !is_verdict(row))),
         most(row.found_upper),
         count(m4f.map(|board| board.mean)),
         count(m4f.map(|board| board.most)),
@@ -142,28 +157,27 @@ fn cells(row: &Row) -> Vec<String> {
         m4f.map_or("-".to_owned(), |board| board.stack.to_string()),
         count(Some(row.nanoseconds)),
     ];
-    if row.setting.question == Question::FirstHit {
+    if shown == Shown::Undecided {
         cells.insert(UNDECIDED.0, row.undecided.to_string());
     }
     cells
 }
 
+/// Whether the answers of a row are verdicts, without intervals.
+fn is_verdict(row: &Row) -> bool {
+    matches!(row.setting.question, Question::Within(_))
+}
+
 /// What a place of a question is.
 const fn noun(question: Question) -> &'static str {
     match question {
-        Question::ClosestPoint => "point",
         Question::FirstHit => "segment",
+        _ => "point",
     }
 }
 
 fn write_notes(out: &mut dyn Write, question: Question, rows: &[Row]) -> io::Result<()> {
     let (width, found) = match question {
-        Question::ClosestPoint => (
-            "error, median: width of the interval that holds, the largest and the median of these \
-             points, in\nthe mesh's unit; at other points it may be wider, and holds.",
-            "found: the distance in f64 less the\nlower end, and the upper end less that distance, \
-             the largest.",
-        ),
         Question::FirstHit => (
             "error, median: width of the interval of a segment's free length, which is how far it \
              goes before it\nmeets the mesh, the largest and the median of these segments, in the \
@@ -171,6 +185,12 @@ fn write_notes(out: &mut dyn Write, question: Question, rows: &[Row]) -> io::Res
              are proved neither clear nor to meet the mesh.\n",
             "found: the free length in f64 less the lower end, and the upper\nend less it, the \
              largest.",
+        ),
+        _ => (
+            "error, median: width of the interval that holds, the largest and the median of these \
+             points, in\nthe mesh's unit; at other points it may be wider, and holds.",
+            "found: the distance in f64 less the\nlower end, and the upper end less that distance, \
+             the largest.",
         ),
     };
     writeln!(
@@ -181,6 +201,11 @@ fn write_notes(out: &mut dyn Write, question: Question, rows: &[Row]) -> io::Res
          host ns: of this machine, on one thread.",
         noun(question)
     )?;
+    write_predicted(out, rows)
+}
+
+/// Says how well instructions are predicted.
+pub(super) fn write_predicted(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
     let mut said: Vec<String> = Vec::new();
     let mut not_counted: Vec<String> = Vec::new();
     let tell = |all: &mut Vec<String>, line: String| {
@@ -208,7 +233,9 @@ fn write_notes(out: &mut dyn Write, question: Question, rows: &[Row]) -> io::Res
         }
     }
     said.sort();
-    writeln!(out, "a mean of the fit's meshes and of its tests was predicted within")?;
+    if !said.is_empty() {
+        writeln!(out, "a mean of the fit's meshes and of its tests was predicted within")?;
+    }
     said.iter().try_for_each(|line| writeln!(out, "{line}"))?;
     if not_counted.is_empty() {
         return Ok(());
@@ -273,9 +300,9 @@ pub fn of_row(row: &Row) -> Value {
         "build": row.build(),
         "dials": row.setting.dials(),
         "guaranteed": row.guaranteed.map(spread),
-        "found_lower": spread(row.found_lower),
+        "found_lower": (!is_verdict(row)).then(|| spread(row.found_lower)),
         "found_upper": row.found_upper.map(spread),
-        "undecided": (row.setting.question == Question::FirstHit).then_some(row.undecided),
+        "undecided": (row.setting.question != Question::ClosestPoint).then_some(row.undecided),
         "instructions": of_boards(row.boards),
         "flash": row.flash,
         "scratch_bytes": row.scratch,
