@@ -42,7 +42,7 @@
 //! | triangles that may face an eye | [`Bvh::front_facing`] |
 //! | how far is a mesh, by a tight hull of few faces; is it within a distance | [`TightHull::closest_point`], [`TightHull::within`] |
 //! | are two models apart, or farther than a distance; bounds without triangles | [`Triboxes::separation`], [`Triboxes::within_of`], [`Triboxes::distance`], [`Triboxes::clip`] |
-//! | bounds of the distance in some 200 instructions of a Cortex-M4F, the side and a direction, from a lattice | [`Sdf::distance`], [`Sdf::distance_and_gradient`], [`Sdf::within`] |
+//! | bounds of the distance by one look-up, in a lattice some 200 instructions of a Cortex-M4F, in a tree some more; the side and a direction | [`Sdf::distance`], [`Sdf::distance_and_gradient`], [`Sdf::within`] |
 //! | the same by the field first, and by the box tree where the field cannot decide | [`BvhWithSdf::within`], [`BvhWithSdf::distance_bounds`], [`BvhWithSdf::signed_bounds`] |
 //! | the same in whole units, without floating point | [`Sdf::distance_in_units`], [`Sdf::gradient_in_units`] |
 //! | fences and tool paths | [`Curve::closest_point`], [`Curve::within`], [`Curve::nearest`], [`Curve::all_within`] |

@@ -150,11 +150,22 @@ pub enum BuildError {
         /// The longest side of the field, in the mesh's unit.
         side: f64,
     },
-    /// An error of a field is too large for its bytes: far from the surface there are points whose
-    /// side is undecided.
+    /// An error of a field is too large for its numbers of 16 bits. Either points far from the
+    /// surface have no certain side, or a tree has so few leaves that one is wide.
     FieldTooWide {
         /// The kind of field.
         kind: &'static str,
+        /// The layout, if one was asked for.
+        layout: Option<&'static str>,
+        /// Most bytes of the field.
+        bytes: u32,
+    },
+    /// A field of this layout takes more bytes.
+    FieldTooSmall {
+        /// Bytes that were asked for.
+        bytes: u32,
+        /// Bytes of the smallest one.
+        least: u32,
     },
     /// Triboxes do not hold the mesh's coordinates.
     Triboxes(TriboxError),
@@ -317,11 +328,26 @@ impl fmt::Display for BuildError {
                  extent or a --sdf-margin",
                 About(*side)
             ),
-            Self::FieldTooWide { kind } => write!(
+            Self::FieldTooWide { kind, layout: Some("tree"), bytes } => write!(
+                f,
+                "a leaf of a {kind} tree of {bytes} bytes is wider than its numbers hold: give it \
+                 more --sdf bytes, or leave out --sdf-layout, and a lattice is built instead"
+            ),
+            Self::FieldTooWide { kind: "surface", bytes, .. } => write!(
+                f,
+                "a cell of a surface field of {bytes} bytes is wider than its numbers hold: give \
+                 it more --sdf bytes, or less --sdf-margin"
+            ),
+            Self::FieldTooWide { kind, .. } => write!(
                 f,
                 "points far from the surface are neither inside nor outside: the errors of a {kind} \
                  field have no room in its bytes; unite the mesh's parts, or ask for --sdf-kind \
                  surface"
+            ),
+            Self::FieldTooSmall { bytes, least } => write!(
+                f,
+                "a tree takes {least} bytes at least, not {bytes}: give it more --sdf bytes, or \
+                 leave out --sdf-layout"
             ),
             Self::Triboxes(error) => write!(f, "{error}; choose a larger unit"),
             Self::NoLevel { levels: 0, .. } => {

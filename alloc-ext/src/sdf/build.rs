@@ -19,12 +19,16 @@ use crate::surface::scale_exponent;
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
+use meshsweep_core::internal::sdf::format::layout::{SDF_BYTES, tree as tree_layout};
 use meshsweep_core::{SdfKind, SdfLayout, SectionKind};
 use rayon::prelude::*;
 use std::time::Duration;
 
 /// Bytes of a field unless told otherwise.
 pub const BYTES: u32 = 16 << 10;
+
+/// Bytes of the smallest tree: the header and one leaf.
+const LEAST_OF_TREE: u32 = (SDF_BYTES + tree_layout::ENTRY_BYTES) as u32;
 
 /// Wanted errors are above those of the samples, at least by the greater of so many units and of a
 /// part of the diagonal. Samples miss what lies between them, and a proof without slack never ends.
@@ -41,7 +45,9 @@ fn of_field([units, part]: [f64; 2], domain: &Domain) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SdfOptions {
-    /// Most bytes of the section. Fewer than 105 count as 105: the header and one cell.
+    /// Most bytes of the section. The header and one cell of a lattice take 105: of fewer bytes
+    /// there is this lattice. One leaf of a tree takes 101: of fewer bytes there is no tree, and
+    /// [`BuildError::FieldTooSmall`] if one was asked for.
     pub bytes: u32,
     /// Distance about the mesh's box that the field covers, in the mesh's unit. `None`: a tenth of
     /// the box's diagonal.
@@ -90,8 +96,8 @@ pub struct SdfReport {
     pub steps: u32,
     /// Bytes of the section.
     pub bytes: usize,
-    /// Mean width of the intervals at the samples up to a tenth of the diagonal from the surface.
-    /// Of a signed field all samples inside count too, of a solid one none.
+    /// Mean width of the intervals at the samples in the mesh's box and the margin, up to a tenth of
+    /// the diagonal from the surface. Of a signed field all samples inside count too, of a solid one none.
     pub mean_width: f64,
     /// The same of the other layout, if it was built too.
     pub other_width: Option<f64>,
@@ -118,8 +124,8 @@ pub struct SdfReport {
 /// [`BuildError::MarginTooLarge`]: mesh and margin leave the range of f32.
 /// [`BuildError::FieldUnit`]: a unit is no normal f32, or f32 cannot place the lattice about the
 /// mesh. [`BuildError::NoSides`]: a signed or solid field of a mesh that is not closed, or whose
-/// walls were merged. [`BuildError::FieldTooWide`]: an error does not fit 16 bits, in any
-/// layout that was asked for.
+/// walls were merged. [`BuildError::FieldTooSmall`]: a tree of fewer bytes than one leaf takes.
+/// [`BuildError::FieldTooWide`]: an error does not fit 16 bits, in any layout that was asked for.
 /// [`BuildError::Cancelled`].
 pub fn build(
     input: Input<'_>,
@@ -155,6 +161,9 @@ pub fn build(
         },
         false => None,
     };
+    if options.layout == Some(SdfLayout::Tree) && options.bytes < LEAST_OF_TREE {
+        return Err(BuildError::FieldTooSmall { bytes: options.bytes, least: LEAST_OF_TREE });
+    }
     let tree = match is_wanted(SdfLayout::Tree) {
         // A unit of a tree is smaller: what f32 cannot place may fit a lattice.
         true => match of.tree(watch.part(0.5, 1.0)) {
@@ -168,7 +177,7 @@ pub fn build(
     let is_narrower = widths[1].is_some_and(|tree| widths[0].is_none_or(|other| tree < other));
     let (field, other) = if is_narrower { (tree, widths[0]) } else { (lattice, widths[1]) };
     let Some(Field { body, report }) = field else {
-        return Err(BuildError::FieldTooWide { kind: kind.name() });
+        return Err(too_wide(kind, options));
     };
     let time = started.elapsed();
     let report = SdfReport { lacks_sides, other_width: other, time, ..report };
@@ -183,6 +192,12 @@ pub fn build(
         vec![(SectionKind::Sdf, body)],
     );
     Ok((header, report))
+}
+
+/// Why a field has no room for its errors.
+fn too_wide(kind: SdfKind, options: &SdfOptions) -> BuildError {
+    let layout = options.layout.map(SdfLayout::name);
+    BuildError::FieldTooWide { kind: kind.name(), layout, bytes: options.bytes }
 }
 
 /// A field, before it is a section.
@@ -237,8 +252,7 @@ impl Work<'_> {
         };
         let needed: Vec<[u32; 2]> = proofs.iter().enumerate().map(proved).collect();
         books.hold(&needed);
-        let body = section(&domain, kind, &codes, &books)
-            .ok_or(BuildError::FieldTooWide { kind: kind.name() })?;
+        let body = section(&domain, kind, &codes, &books).ok_or(too_wide(kind, options))?;
         let mut found = Widths::default();
         for cell in 0..domain.cell_count() {
             let [low, high] = books.errors(cell).map(f64::from);

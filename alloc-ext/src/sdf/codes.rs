@@ -5,12 +5,13 @@
 //! same three parities share no cell, so they move at once, and the codes do not depend on the
 //! number of threads.
 
-use super::domain::Domain;
+use super::domain::{CELL, Domain};
 use super::function::Trilinear;
 use super::prove::Errors;
 use super::samples::{Sample, Samples};
 use super::truth::{Side, Truth};
 use super::widths::{NEAR, Widths, weight};
+use glam::DVec3;
 use meshsweep_core::SdfKind;
 use meshsweep_core::internal::sdf::format::layout::{MOST_BASE, MOST_STEP};
 use rayon::prelude::*;
@@ -53,7 +54,7 @@ impl Codes {
     pub fn of(truth: &Truth<'_>, domain: &Domain, samples: &Samples) -> Self {
         let kind = truth.kind;
         // Farther inside, a solid field is only to be below 0.
-        let deepest = 0.5 * super::domain::CELL * 3f64.sqrt();
+        let deepest = 0.5 * CELL * 3f64.sqrt();
         let values: Vec<f64> = (0..domain.corner_count())
             .map(|number| {
                 let at = domain.corner(number);
@@ -204,7 +205,7 @@ fn errors(corners: &[f64; 8], limits: &Limits, steps: usize) -> Errors {
     Errors { low: f64::from(low), high: f64::from(high) }
 }
 
-/// The widths of a cell's intervals with these errors.
+/// The widths of a cell's intervals with these errors, in the box that was asked for.
 pub(super) fn widths(
     codes: &Codes,
     domain: &Domain,
@@ -215,9 +216,15 @@ pub(super) fn widths(
 ) -> Widths {
     let mut found = Widths::default();
     let corners = codes.corners(domain, cell);
+    let (side, step) = (samples.steps + 1, CELL / samples.steps as f64);
+    let first = DVec3::from(domain.cell(cell).map(|at| at as f64)) * CELL;
     values(&corners, samples.steps, |start, from, rise| {
         for (at, &sample) in samples.cells[cell][start..=start + samples.steps].iter().enumerate() {
-            let value = f64::from(from + rise * at as f32);
+            let (row, value) = (start / side, f64::from(from + rise * at as f32));
+            let place = [at, row % side, row / side].map(|at| at as f64 * step);
+            if !domain.is_asked(first + DVec3::from(place)) {
+                continue;
+            }
             let interval = [value - of.low, value + of.high];
             found.add(sample, kind, NEAR * domain.diagonal, interval, 1.0);
         }

@@ -31,6 +31,9 @@ pub(super) struct Domain {
     pub cells: [usize; 3],
     /// Diagonal of the mesh's box, units.
     pub diagonal: f64,
+    /// The box that was asked for: the mesh's and the margin. Cells of a lattice stand out of it
+    /// otherwise than those of a tree, so widths of both are compared in it.
+    pub asked: [DVec3; 2],
 }
 
 /// Bytes of a field with so many cells along each axis.
@@ -145,9 +148,12 @@ impl Domain {
             return Err(BuildError::MarginTooLarge);
         }
         let diagonal = diagonal * f64::from(per_unit);
-        let domain = Self { origin, per_unit, unit, side: units, cells, diagonal };
+        let asked = [DVec3::ZERO; 2];
+        let mut domain = Self { origin, per_unit, unit, side: units, cells, diagonal, asked };
         let ends = [bounds.low, bounds.high].map(|p| domain.place(p));
         let top = domain.size();
+        // With the room that was added above: of a plate without a margin too, samples are in it.
+        domain.asked = [-0.5, 0.5].map(|part| domain.place(middle + part * size));
         let is_within = ends[0].min_element() >= 0.0 && ends[1].cmple(top).all();
         if is_within { Ok(domain) } else { Err(BuildError::FieldUnit { side: size.max_element() }) }
     }
@@ -164,6 +170,12 @@ impl Domain {
 
     fn input_origin(&self) -> DVec3 {
         DVec3::from(self.origin.map(f64::from))
+    }
+
+    /// Whether a place of the frame is in the box that was asked for.
+    pub fn is_asked(&self, p: DVec3) -> bool {
+        let [low, high] = self.asked;
+        low.cmple(p).all() && p.cmple(high).all()
     }
 
     /// The domain's upper corner.

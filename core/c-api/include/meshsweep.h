@@ -967,8 +967,9 @@ int32_t msw_sdf_unit(const msw_sdf *field, float *unit);
  * The interval contains the distance to the input mesh: signed, or of the kind of build --sdf-kind.
  * If the side of a point is not certain, it contains the distance with both signs. Outside of the
  * field the distance from the field is added. MSW_ERROR_OUT_OF_DOMAIN: farther than 2^60 units.
- * Cost on a Cortex-M4F: some 200 instructions for every point of the field; on a Cortex-M0, which
- * converts floats by calls, several times as much: see msw_sdf_distance_in_units. */
+ * Cost on a Cortex-M4F: some 200 instructions for every point of a lattice, and more for each step
+ * in a tree; on a Cortex-M0, which converts floats by calls, several times as much: see
+ * msw_sdf_distance_in_units. */
 int32_t msw_sdf_distance(const msw_sdf *field, const float point[3], msw_sdf_answer *answer);
 
 /* The same, and the gradient there: the direction of a force or of a step. Outside of the field it

@@ -63,7 +63,8 @@ impl Sdf<'_> {
     }
 
     /// Whole units nearest to a point, for [`distance_in_units`](Self::distance_in_units): within
-    /// 9/16 of a unit along each axis. Units count from corner 0 of the lattice.
+    /// 9/16 of a unit along each axis. Units count from corner 0 of the first cell, of a tree
+    /// the first root cell.
     ///
     /// Firmware without floating point computes its points in units from the start; this function
     /// shows how they lie.

@@ -44,7 +44,7 @@ pub fn place(fixtures: &Path, folder: &Path, questions: &[&str]) -> Result<(), S
 pub fn lay(fixtures: &Path, question: &str, queries: usize, file: &Path) -> Result<String, String> {
     use meshsweep_counted::placed::{ask, expected};
     let laid = placed::lay(fixtures, question, queries).ok_or_else(|| {
-        format!("`{question}` is not: bvh, sweep, refine, field, units, within, near or bounds-both BLOB ...")
+        format!("`{question}` is not: bvh, sweep, refine, field, beyond, units, within, near or bounds-both BLOB ...")
     })??;
     std::fs::write(file, &laid).map_err(|error| format!("{}: {error}", file.display()))?;
     Ok(format!("{}\n{}", ask(&laid, queries)?, expected(&laid, queries)?))

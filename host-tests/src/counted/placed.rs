@@ -25,7 +25,7 @@ const STEP: f32 = 1e-3;
 /// - `refine BLOB RADIUS ERROR`: updates for a ball that runs from vertex to vertex of the base
 ///   hull, by a thousandth of the diagonal each; radius and error are parts of the diagonal.
 /// - `field BLOB`, `units BLOB`: the distance of a field at points within it, in input units and in
-///   whole units.
+///   whole units. `beyond BLOB`: the first at points of the doubled box, seven in eight outside.
 /// - `within BLOB PART`, `within-both BLOB PART`: whether the box tree, alone or with the field, is
 ///   within such a part of the diagonal, at points up to a tenth of it from the surface.
 /// - `near BLOB RELATIVE`, `near-both BLOB RELATIVE`, `bounds-both BLOB RELATIVE`: closest points
@@ -66,6 +66,10 @@ pub fn lay(fixtures: &Path, question: &str, count: usize) -> Option<Result<Vec<u
         ["field", blob] => read(blob).and_then(|bytes| {
             let field = of(&bytes, Blob::sdf)?;
             Ok(written(Question::Field, &bytes, &[], &in_field(&field, count)))
+        }),
+        ["beyond", blob] => read(blob).and_then(|bytes| {
+            let bounds = of(&bytes, |blob| Ok(blob.sdf()?.bounds()))?;
+            Ok(written(Question::Field, &bytes, &[], &far(bounds, count)))
         }),
         ["units", blob] => read(blob).and_then(|bytes| {
             let field = of(&bytes, Blob::sdf)?;

@@ -1,8 +1,10 @@
 //! Options of a field, and meshes that it is refused for.
 
 use super::decoded::Field;
-use meshsweep::builder::{For, SdfKind, Stage, Topic};
-use meshsweep::mesh::RawMesh;
+use meshsweep::builder::{For, SdfKind, SdfLayout, Stage, Topic};
+use meshsweep::mesh::{Mesh, RawMesh};
+use meshsweep::progress::Watch;
+use meshsweep::sdf::{self, SdfOptions};
 use meshsweep::{BuildError, Builder, Built};
 use meshsweep_host_tests::generate::{Triangles, block, scaled};
 use std::ops::ControlFlow;
@@ -43,6 +45,31 @@ fn a_field_without_a_normal_unit_is_refused() {
     assert!(matches!(refused, BuildError::FieldUnit { .. }), "{refused}");
     let huge = build(&block([0.0; 3], [1e38; 3]), Builder::new().sdf_margin(3.3e38));
     assert_eq!(huge.expect_err("refused"), BuildError::MarginTooLarge);
+}
+
+#[test]
+fn a_tree_of_fewer_bytes_than_a_leaf_takes_is_refused_and_a_lattice_is_not() {
+    let (positions, triangles) = block([0.0; 3], [1.0; 3]);
+    let mesh = Mesh::new(positions, triangles);
+    let of = |bytes: u32, layout: SdfLayout| {
+        let options = SdfOptions::default().with_bytes(bytes).with_layout(Some(layout));
+        sdf::build(mesh.as_input(), &options, Watch::NONE).map(|(_, report)| report.bytes)
+    };
+    let refused = of(100, SdfLayout::Tree).expect_err("refused");
+    assert_eq!(refused, BuildError::FieldTooSmall { bytes: 100, least: 101 });
+    assert!(refused.to_string().contains("101 bytes at least, not 100"), "{refused}");
+    assert_eq!(of(0, SdfLayout::Lattice), Ok(105));
+    assert_eq!(of(105, SdfLayout::Lattice), Ok(105));
+}
+
+#[test]
+fn a_tree_that_is_too_wide_is_told_to_take_more_bytes_or_a_lattice() {
+    let refused = BuildError::FieldTooWide { kind: "signed", layout: Some("tree"), bytes: 2048 };
+    let told = refused.to_string();
+    assert!(told.contains("more --sdf bytes") && told.contains("--sdf-layout"), "{told}");
+    assert!(!told.contains("inside"), "its sides are certain: {told}");
+    let refused = BuildError::FieldTooWide { kind: "signed", layout: None, bytes: 2048 };
+    assert!(refused.to_string().contains("unite the mesh's parts"), "{refused}");
 }
 
 #[test]

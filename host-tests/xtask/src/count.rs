@@ -1,5 +1,5 @@
 //! `cargo xtask count`: instructions a query on this machine, counted by callgrind; on a
-//! Cortex-M4F, counted by the emulator.
+//! Cortex-M4F and a Cortex-M0, counted by the emulator.
 //!
 //! Times on a busy machine are noise; instructions are not. A program that asks runs in the
 //! simulator twice, with different numbers of queries: the difference is the queries' alone.
@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::boards::BOARDS;
+use crate::fit;
 use crate::host;
 use crate::process;
 use crate::reading::Reading;
@@ -97,26 +97,32 @@ pub type Counts<'a> = BTreeMap<&'a str, Each>;
 /// Queries that a board is asked.
 const ON_BOARD: &str = "1000";
 
-/// Counts questions at places on the Cortex-M4F, in the emulator, and prints the table. The
+/// Counts questions at places on the boards of the fit, in the emulator, and prints the table. The
 /// answers' bits are this machine's, or it is an error.
 pub fn on_board(steps: &mut Steps, tools: &Tools, asked: &[&str]) {
-    let [board, ..] = BOARDS;
-    let Some(image) = steps.run("the image", || tools.image(&board, "ask")) else { return };
-    let title = format!("Instructions a query on a {}", board.cpu);
-    let columns = ["question", "mean", "least", "most", "stack", "scratch", "answers"];
+    let boards = fit::boards().map(|(_, board)| board);
+    let images = steps.run("the images", || {
+        let images = boards.iter().map(|board| tools.image(board, "ask"));
+        images.collect::<Result<Vec<_>, _>>()
+    });
+    let Some(images) = images else { return };
+    let title = "Instructions a query on boards".to_owned();
+    let columns = ["question", "processor", "mean", "least", "most", "stack", "scratch", "answers"];
     let mut table = Table::new("board_instructions", title, &columns);
-    for &question in asked {
-        let counted = steps.run(question, || {
+    let asked =
+        asked.iter().flat_map(|&question| boards.iter().zip(&images).map(move |on| (question, on)));
+    for (question, (board, image)) in asked {
+        let counted = steps.run(&format!("{question}: {}", board.cpu), || {
             let file = workspace::target().join("question.bin");
             let path = file.to_string_lossy();
             let printed = host::run(&["lay", question, ON_BOARD, &path])?;
             let (means, expected) = printed.split_once('\n').unwrap_or_default();
             let expected = Reading::parse(expected, None)?;
-            let reading =
-                tools.asked(&board, &image, (&file, board.loaded), &expected, u32::MAX)?;
+            let reading = tools.asked(board, image, (&file, board.loaded), &expected, u32::MAX)?;
             let cost = reading.costs.first().ok_or("the image told no cost")?;
             table.push(vec![
                 Cell::from(question),
+                Cell::from(board.cpu),
                 fixed(cost.mean, 0),
                 fixed(cost.min, 0),
                 fixed(cost.max, 0),

@@ -66,7 +66,7 @@ impl Counted {
 
 /// The boards whose costs are fitted, by their names in the library. A Cortex-M3 runs the code of a
 /// Cortex-M0, and its board has memory for blobs of any size.
-fn boards() -> [(&'static str, Board); 2] {
+pub fn boards() -> [(&'static str, Board); 2] {
     let [m4f, m0, ..] = BOARDS;
     let machine = Machine::Arm("mps2-an385");
     [("CortexM4F", m4f), ("CortexM0", Board { machine, instructions_per_tick: 40.0, ..m0 })]

@@ -434,7 +434,7 @@ class Model:
         return records(found, _records.MEETS)
 
     def field_distance(self, points: ArrayLike) -> Records:
-        """Bounds of the distance by the distance field, as a Cortex-M has them in 200 instructions.
+        """Bounds of the distance by the distance field: the bits that a Cortex-M computes.
 
         Needs "sdf" among the words of `for_`. Fields: `lower`, `upper`; `side`; `gradient`, the
         direction in which the distance rises, without a guarantee.

@@ -15,6 +15,7 @@ use crate::sdf::region::MARGIN;
 use crate::sdf::samples::{Sample, of_box};
 use crate::sdf::truth::{Side, Truth};
 use crate::sdf::widths::{NEAR, Widths};
+use glam::DVec3;
 use meshsweep_core::internal::sdf::format::SdfHeader;
 use meshsweep_core::internal::sdf::format::layout::tree::{ENTRY_BYTES, MOST_ENTRIES, WIDTHS};
 use meshsweep_core::internal::sdf::format::layout::{BOOK, SDF_BYTES};
@@ -80,6 +81,14 @@ impl Made {
     fn volume(&self) -> f64 {
         let half = self.of.half() * (2.0 / ROOT);
         half.x * half.y * half.z
+    }
+
+    /// Where a sample is, units.
+    fn place(&self, number: usize) -> DVec3 {
+        let side = self.steps + 1;
+        let at = [number % side, number / side % side, number / (side * side)];
+        let step = 2.0 * self.of.half() / self.steps as f64;
+        self.of.corner() + DVec3::from(at.map(|at| at as f64)) * step
     }
 
     fn is_undecided(&self) -> bool {
@@ -173,7 +182,10 @@ pub(in crate::sdf) fn build(
         let weight = leaf.volume() / leaf.samples.len() as f64;
         batch.fill(&leaf.samples, leaf.steps, kind, near);
         let values = fitter.values(&batch, leaf.of.half(), leaf.fitted.shape);
-        for (value, &sample) in values.iter().zip(&leaf.samples) {
+        for (number, (value, &sample)) in values.iter().zip(&leaf.samples).enumerate() {
+            if !domain.is_asked(leaf.place(number)) {
+                continue;
+            }
             let lower = f64::from(*value) + scale.value(code);
             found.add(sample, kind, near, [lower, lower + f64::from(book[place])], weight);
         }

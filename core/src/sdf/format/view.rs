@@ -242,7 +242,7 @@ impl Sdf<'_> {
     }
 
     /// The box of the points that round into the field: the origin, half a unit below corner 0 of
-    /// the lattice along each axis, and the opposite corner. Input units, rounded to nearest.
+    /// the first cell along each axis, and the opposite corner. Input units, rounded to nearest.
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         let [x, y, z] = self.units();
         let [a, b, c] = self.origin;
