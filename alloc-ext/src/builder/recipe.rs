@@ -1,7 +1,6 @@
 //! A structure that answers distances or segments, and the dials that it is built with.
 
 use super::options::{For, Options};
-use crate::sdf::SdfLayout;
 use crate::surface::VertexBits;
 use std::fmt;
 
@@ -24,8 +23,8 @@ pub enum Recipe {
     Tight(u32),
     /// At most so many triboxes.
     Triboxes(u32),
-    /// A lattice of distances of so many bytes: signed, if the mesh is closed. Its look-ups take as
-    /// long everywhere, which those of a tree do not.
+    /// A distance field of so many bytes: signed, if the mesh is closed. Of a lattice and a tree
+    /// the narrower.
     Sdf(u32),
     /// The same and a box tree for distances.
     TreeWithSdf(u32),
@@ -49,15 +48,10 @@ impl Recipe {
                 ..serving(For::Tight)
             },
             Self::Triboxes(count) => Options { triboxes: Some(count), ..serving(For::Triboxes) },
-            Self::Sdf(bytes) => Options {
-                sdf_bytes: Some(bytes),
-                sdf_layout: Some(SdfLayout::Lattice),
-                ..serving(For::Sdf)
-            },
+            Self::Sdf(bytes) => Options { sdf_bytes: Some(bytes), ..serving(For::Sdf) },
             Self::TreeWithSdf(bytes) => Options {
                 asked: vec![For::Closest, For::Sdf],
                 sdf_bytes: Some(bytes),
-                sdf_layout: Some(SdfLayout::Lattice),
                 ..Options::default()
             },
             Self::Curve(bits) => Options { vertex_bits: bits, ..serving(For::Curve) },

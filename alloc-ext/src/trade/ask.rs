@@ -1,14 +1,14 @@
 //! The answers of a setting, the work that they took, and the time of this machine.
 
 use super::cost::{Features, Shape};
-use super::field::to_surface;
+use super::field::{steps, to_surface};
 use super::setting::{How, Question, Setting};
 use crate::builder::Recipe;
 use crate::clock::Instant;
 use crate::distances::Distances;
 use meshsweep_core::{
     Blob, Budget, BuildFor, ClosestPoint, CoherentQuery, Curve, Ended, Facing, FirstHit, Hint,
-    Interval, QueryError, ScratchEntry, Side, Verdict, Work,
+    Interval, QueryError, ScratchEntry, Sdf, Side, Verdict, Work,
 };
 use std::hint::black_box;
 
@@ -157,11 +157,15 @@ pub(super) fn ask(
         Recipe::Sdf(_) => {
             let field = blob.sdf()?;
             let of = Of { budget, shape: Shape::of_field(&field), scratch: 0 };
-            twice(points, &of, |[p]| {
+            let mut asked = twice(points, &of, |[p]| {
                 let found = to_surface(&field, field.distance(p)?.distance);
                 let ends = [f64::from(found.lower), f64::from(found.upper)];
                 Ok(Told { ends, work: Work::NONE, is_undecided: false })
-            })
+            })?;
+            for (answer, place) in asked.answers.iter_mut().zip(points) {
+                answer.features = Some(of.shape.features(place, &budget, &look_up(&field, place)));
+            }
+            Ok(asked)
         }
         Recipe::TreeWithSdf(_) => {
             let both = blob.bvh_with_sdf()?;
@@ -175,13 +179,21 @@ pub(super) fn ask(
             })?;
             let shape = Shape::of_field(both.field());
             for (answer, place) in asked.answers.iter_mut().zip(points) {
-                answer.look_up = Some(shape.features(place, &budget, &Work::NONE));
+                let work = look_up(both.field(), place);
+                answer.look_up = Some(shape.features(place, &budget, &work));
                 let was_asked = |features: &Features| features[OPENED] > 0.0;
                 answer.features = answer.features.filter(was_asked);
             }
             Ok(asked)
         }
     }
+}
+
+/// The work of a look-up, as costs count it: an entry of a tree is a node.
+fn look_up(field: &Sdf<'_>, [point]: &[[f32; 3]; 1]) -> Work {
+    let mut work = Work::NONE;
+    work.bounds = steps(field, *point);
+    work
 }
 
 /// The feature that counts opened nodes.

@@ -6,7 +6,7 @@
 //! prints the error on meshes that the fit has not seen.
 
 use crate::emit::source::stack_bound;
-use meshsweep_core::{Budget, Bvh, Curve, Hull, Sdf, TightHull, Triboxes, Work};
+use meshsweep_core::{Budget, Bvh, Curve, Hull, Sdf, SdfLayout, TightHull, Triboxes, Work};
 
 /// A processor whose instructions are predicted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,8 +70,10 @@ pub enum Search {
     CurveWithin,
     /// The signed distance of a fence.
     CurveSigned,
-    /// The distance of a distance field: one look-up, whose cost is known by its construction.
+    /// The distance of a lattice: one look-up, whose cost is known by its construction.
     Field,
+    /// The distance of a tree of boxes: a look-up of so many steps as lead to the leaf.
+    FieldTree,
 }
 
 impl Search {
@@ -96,6 +98,15 @@ impl Search {
         Self::CurveWithin,
         Self::CurveSigned,
     ];
+
+    /// Of a distance field.
+    #[must_use]
+    pub const fn of_field(field: &Sdf<'_>) -> Self {
+        match field.layout() {
+            SdfLayout::Tree => Self::FieldTree,
+            _ => Self::Field,
+        }
+    }
 
     /// Bytes of stack below the caller that the question takes at most on a board.
     #[must_use]
@@ -122,7 +133,7 @@ impl Search {
             Self::Curve | Self::CurveWithin => "closest point of curves",
             Self::KeptCurve => "sweep of curves",
             Self::CurveSigned => "signed distance of curves",
-            Self::Field => "distance of a field",
+            Self::Field | Self::FieldTree => "distance of a field",
         }
     }
 
@@ -148,7 +159,8 @@ impl Search {
             Self::KeptCurve => "curve, kept",
             Self::CurveWithin => "curve, within",
             Self::CurveSigned => "curve, signed",
-            Self::Field => "distance field",
+            Self::Field => "distance field, lattice",
+            Self::FieldTree => "distance field, tree",
         }
     }
 }

@@ -90,8 +90,11 @@ impl fmt::Display for Unmet {
             }
             Self::NoIntervals => f.write_str("no structure gives intervals"),
             Self::Beyond { nearest, limits } => {
-                let setting = nearest.setting;
-                write!(f, "no setting meets these limits; the nearest is {setting}, which needs ")?;
+                let (name, dials) = (nearest.name(), nearest.setting.dials());
+                write!(
+                    f,
+                    "no setting meets these limits; the nearest is {name}: {dials}, which needs "
+                )?;
                 f.write_str(&limits.needs(nearest).join(" and "))
             }
         }

@@ -13,7 +13,7 @@ use crate::curve::Polyline;
 use crate::load::{Loaded, Source};
 use crate::mesh::Mesh;
 use glam::DVec3;
-use meshsweep_core::QueryError;
+use meshsweep_core::{QueryError, SdfLayout};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -102,19 +102,29 @@ pub struct Row {
     pub nanoseconds: f64,
     /// Predicted, in the order of [`Board::ALL`]; `None` if no cost was fitted.
     pub boards: [Option<Instructions>; 2],
+    /// Of a distance field, alone or before a box tree, how it lies in its bytes.
+    pub layout: Option<SdfLayout>,
     /// Of a cut hierarchy the level that is left as the finest.
     pub level: Option<u32>,
     /// Bytes of the blob.
     pub flash: usize,
     /// Bytes of scratch, and of memory that is kept between queries.
     pub scratch: usize,
-    /// Nodes, triangles, exact evaluations and splits of a mean query.
+    /// Nodes, triangles, exact evaluations and splits of a mean query. Of a field alone the nodes
+    /// are entries of its tree, or 0.
     pub work: [f64; 4],
     /// The part of the queries that the field answered alone, of a box tree with a field.
     pub by_field: Option<f64>,
 }
 
 impl Row {
+    /// Structure and dials in words, with the layout of a field.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let name = self.setting.recipe.name();
+        self.layout.map_or_else(|| name.clone(), |layout| format!("{name}, {}", layout.name()))
+    }
+
     /// The options with which the program builds the blob; of a cut level also those of `cut`.
     #[must_use]
     pub fn build(&self) -> String {
@@ -320,17 +330,23 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
     let upper = |i: usize| answers[i].upper;
     let each = |of: &dyn Fn(usize) -> f64| Spread::of((0..answers.len()).map(of).collect());
     let is_bounded = answers.iter().all(|answer| answer.upper.is_finite());
+    let blob = built.blob();
+    let field = blob.sdf().ok();
+    let search = match (setting.search(), field) {
+        (Search::Field, Some(of)) => Search::of_field(&of),
+        (search, _) => search,
+    };
     let boards = Board::ALL.map(|board| {
-        let cost = fitted_cost(board, setting.search())?;
-        let look_up = fitted_cost(board, Search::Field)?;
+        let cost = fitted_cost(board, search)?;
+        let look_up = fitted_cost(board, field.map_or(Search::Field, |of| Search::of_field(&of)))?;
         let of = |answer: &Answer| {
             let searched = answer.features.as_ref().map_or(0.0, |features| cost.of(features));
             searched + answer.look_up.as_ref().map_or(0.0, |features| look_up.of(features))
         };
         let all: Vec<f64> = answers.iter().map(of).collect();
-        let mut found = Instructions::of(cost, setting.search().stack(board), &all);
-        if setting.search() == Search::Field {
-            found.most = field::most(board);
+        let mut found = Instructions::of(cost, search.stack(board), &all);
+        if let (Search::Field | Search::FieldTree, Some(of)) = (search, field) {
+            found.most = field::most(board, &of);
         }
         Some(found)
     });
@@ -350,6 +366,7 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
         undecided: answers.iter().filter(|answer| answer.is_undecided).count(),
         nanoseconds: *nanoseconds,
         boards,
+        layout: field.map(|of| of.layout()),
         level: built.cut_level(),
         flash: built.bytes().len(),
         scratch: *scratch,

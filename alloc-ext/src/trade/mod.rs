@@ -39,6 +39,7 @@ mod truth;
 pub use ask::intervals;
 pub use blobs::{NotBuilt, build};
 pub use cost::{Board, Cost, FEATURES, Features, Search, Shape, features_of_pair};
+pub use field::most as most_of_field;
 pub use fitted::cost;
 pub use limits::{CYCLES, Choice, Cpu, Limits, Unmet};
 pub use measure::{

@@ -49,6 +49,23 @@ fn errors_are_those_of_an_independent_distance_and_the_first_table_is_what_nothi
         let is = |row: &&Value| row["structure"] == structure && row["dials"] == dials;
         rows(&trade).iter().find(is).expect("it is measured")
     };
+    let is_field = |row: &&Value| row["layout"].is_string() && row["by_field"].is_null();
+    assert!(rows(&trade).iter().filter(is_field).count() >= 2);
+    for row in rows(&trade).iter().filter(is_field) {
+        // What it says to build has the layout that it names.
+        let blob = directory.join("field.msw");
+        let options: Vec<&str> = row["build"].as_str().unwrap().split(' ').collect();
+        let built = ok([&["build", arg(&mesh), "-o", arg(&blob), "--json"], &options[..]].concat());
+        let field = &serde_json::from_str::<Value>(&built).unwrap()["contents"]["sdf"];
+        assert_eq!(field["layout"], row["layout"]);
+        let layout = row["layout"].as_str().unwrap();
+        assert!(row["structure"].as_str().unwrap().ends_with(layout), "{row}");
+        // A tree's costliest place takes the steps of `Sdf::steps`; no mean takes more.
+        for board in row["instructions"].as_array().unwrap() {
+            assert!(board["mean"].as_f64() <= board["most"].as_f64(), "{row}");
+        }
+        assert!(row["work"]["nodes"].as_f64() <= field["steps"].as_f64(), "{row}");
+    }
     let is_cut = |row: &&Value| row["structure"].as_str().is_some_and(|s| s.starts_with("cut"));
     for row in rows(&trade).iter().filter(is_cut) {
         // What it says to build and to cut is the blob that was measured.

@@ -122,6 +122,7 @@ fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
         Search::Tight => Recipe::Tight(200),
         Search::Triboxes | Search::PairOfTriboxes => Recipe::Triboxes(64),
         Search::Field
+        | Search::FieldTree
         | Search::Curve
         | Search::KeptCurve
         | Search::CurveWithin
@@ -248,6 +249,7 @@ fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
         Search::PairOfTrees
         | Search::PairOfTriboxes
         | Search::Field
+        | Search::FieldTree
         | Search::Curve
         | Search::KeptCurve
         | Search::CurveWithin
@@ -267,7 +269,7 @@ fn question(search: Search, budget: Budget) -> Question {
         Search::Tight => Question::Tight(budget),
         Search::FirstHit | Search::FirstHitF32 => Question::FirstHit(budget),
         Search::FirstHitOfHull => Question::FirstHitOfHull(budget),
-        Search::Field => Question::Field,
+        Search::Field | Search::FieldTree => Question::Field,
         Search::Curve => Question::Curve(budget),
         Search::KeptCurve => Question::KeptCurve(budget),
         Search::CurveSigned => Question::CurveSigned(budget),

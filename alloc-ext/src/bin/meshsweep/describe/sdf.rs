@@ -1,6 +1,8 @@
 //! The distance field: kind, layout, cells, errors.
 
+use meshsweep::counted::Counted;
 use meshsweep::number::{AtMost, Short};
+use meshsweep::trade::{Board, most_of_field};
 use meshsweep_core::internal::sdf::format::layout::tree;
 use meshsweep_core::{Sdf, SdfKind, SdfLayout};
 use serde_json::{Value, json};
@@ -46,12 +48,17 @@ pub(super) fn write(out: &mut dyn Write, sdf: &Sdf<'_>) -> io::Result<()> {
     writeln!(out, "  {means}")?;
     let unit = Short(sdf.unit());
     if sdf.layout() == SdfLayout::Tree {
-        let (leaves, steps) = (leaves(sdf), sdf.steps());
-        writeln!(out, "  tree of {leaves} leaves; a question takes {steps} steps at most")?;
+        writeln!(out, "  tree of {} leaves", leaves(sdf))?;
         writeln!(out, "  {x} x {y} x {z} root cells of 65536 units of {unit}")?;
     } else {
         writeln!(out, "  {x} x {y} x {z} cells of 2048 units of {unit}")?;
     }
+    let [m4f, m0] = Board::ALL.map(|board| {
+        let most = (most_of_field(board, sdf) / 10.0).ceil() * 10.0;
+        format!("{most} instructions of a {}", board.name())
+    });
+    let steps = Counted(sdf.steps() as usize, "step");
+    writeln!(out, "  a question takes {steps} at most: some {m4f}, {m0}")?;
     writeln!(out, "  from {low} to {high}")?;
     writeln!(out, "  largest error {below} below, {above} above; widest cell {both}")
 }

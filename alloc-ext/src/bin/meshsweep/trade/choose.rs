@@ -56,7 +56,7 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
         Some(_) => "fewest instructions of those that meet all limits",
         None => "smallest error of those that meet all limits",
     };
-    writeln!(out, "chosen: {}", first.setting)?;
+    writeln!(out, "chosen: {}: {}", first.name(), first.setting.dials())?;
     let of = match first.setting.question {
         Question::FirstHit => "segments",
         _ => "points",
@@ -98,7 +98,7 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
     )?;
     match second {
         Some(second) => {
-            writeln!(out, "second: {}", second.setting)?;
+            writeln!(out, "second: {}: {}", second.name(), second.setting.dials())?;
             write_costs(out, limits, second)?;
             writeln!(out, "  instead of the first: {}", gain(limits, first, second))
         }

@@ -8,6 +8,7 @@ use meshsweep::number::AtMost;
 use meshsweep::trade::{
     Board, COMB_OF_NEEDLES, Instructions, MANY_NEEDLES, Question, Row, Spread, pareto,
 };
+use meshsweep_core::SdfLayout;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::Path;
@@ -70,9 +71,8 @@ pub fn write(
     write_rounding(out, mesh, &loaded.report)?;
     loaded.unit_note().map_or(Ok(()), |note| writeln!(out, "  {note}"))?;
     let best = pareto(&trade.rows);
-    let of = |rows: &mut dyn Iterator<Item = &Row>| {
-        rows.map(|row| row.setting.recipe.name().len()).max().unwrap_or(0)
-    };
+    let of =
+        |rows: &mut dyn Iterator<Item = &Row>| rows.map(|row| row.name().len()).max().unwrap_or(0);
     let width = of(&mut trade.rows.iter());
     writeln!(
         out,
@@ -106,7 +106,7 @@ fn write_rows<'r>(
     let headings: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
     write_line(out, &named("structure", "dials"), columns, &headings)?;
     rows.into_iter().try_for_each(|row| {
-        let name = named(&row.setting.recipe.name(), &dials(row));
+        let name = named(&row.name(), &dials(row));
         write_line(out, &name, columns, &cells(row, Shown::of(row.setting.question)))
     })
 }
@@ -296,7 +296,8 @@ pub fn of_row(row: &Row) -> Value {
     let [nodes, triangles, exact, splits] = row.work;
     let work = json!({ "nodes": nodes, "triangles": triangles, "exact": exact, "splits": splits });
     json!({
-        "structure": row.setting.recipe.name(),
+        "structure": row.name(),
+        "layout": row.layout.map(SdfLayout::name),
         "build": row.build(),
         "dials": row.setting.dials(),
         "guaranteed": row.guaranteed.map(spread),
