@@ -7,13 +7,13 @@
  * libmeshsweep.a. Of the functions for this blob, those that are not listed take less
  * than 64.
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
- *   msw_open_sdf                    1664 / 1472    1664 / 1536    1664 / 1472    1536 / 1344
- *   msw_sdf_distance                  256 / 256      576 / 576      256 / 256      384 / 384
- *   msw_sdf_distance_and_gradient      384 / 320      704 / 640      384 / 320      448 / 384
- *   msw_sdf_within                    320 / 320      640 / 640      320 / 320      448 / 384
+ *   msw_open_sdf                    1664 / 1536    1728 / 1536    1664 / 1536    1600 / 1408
+ *   msw_sdf_distance                  320 / 256      512 / 512      320 / 256      320 / 320
+ *   msw_sdf_distance_and_gradient      448 / 384      768 / 640      448 / 384      448 / 384
+ *   msw_sdf_within                    384 / 320      576 / 576      384 / 320      384 / 320
  *   msw_sdf_units_of                  192 / 192      320 / 384      192 / 192      256 / 256
- *   msw_sdf_distance_in_units         320 / 256      384 / 320      320 / 256      256 / 192
- *   msw_sdf_gradient_in_units         384 / 320      384 / 320      384 / 320      256 / 256
+ *   msw_sdf_distance_in_units         256 / 192      320 / 256      256 / 192      192 / 192
+ *   msw_sdf_gradient_in_units         320 / 320      384 / 320      320 / 320      256 / 256
  *   msw_checksum                     1088 / 896     1088 / 960     1088 / 896      960 / 832
  *   msw_pose_of_quaternion            192 / 256      320 / 448      192 / 256      192 / 320
  *   msw_pose_then                     640 / 512      832 / 832      640 / 512      704 / 768

@@ -8,11 +8,11 @@
 // Bytes of the processor's stack that a question takes, at opt-level "s" / 3. Debug builds
 // take several times as much: core/docs/guide.md tells how to avoid it.
 //                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
-//   open a distance field           1536 / 1344    1600 / 1408    1536 / 1344    1408 / 1216
-//   distance of a field               320 / 256      576 / 576      320 / 256      384 / 384
-//   distance of a field in units      448 / 320      448 / 384      448 / 320      320 / 256
-//   distance and gradient of a field      384 / 320      640 / 640      384 / 320      448 / 384
-//   within of a field                 320 / 320      640 / 640      320 / 320      448 / 384
+//   open a distance field           1536 / 1408    1600 / 1408    1536 / 1408    1472 / 1280
+//   distance of a field               384 / 320      512 / 512      384 / 320      320 / 320
+//   distance of a field in units      384 / 320      448 / 384      384 / 320      320 / 256
+//   distance and gradient of a field      448 / 384      768 / 640      448 / 384      448 / 384
+//   within of a field                 384 / 320      576 / 576      384 / 320      384 / 320
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
 
