@@ -23,8 +23,10 @@ impl Sdf<'_> {
         let units @ [x, y, z] = self.unrounded(point);
         // The bits of numbers that are not negative rise with the numbers. Those of negative ones
         // and of NaN are above those of any number.
-        let is_within = are_below(each(units, f32::to_bits), self.ends);
-        is_within.then(|| [x as u32, y as u32, z as u32])
+        if !are_below(each(units, f32::to_bits), self.ends) {
+            return None;
+        }
+        Some([x as u32, y as u32, z as u32])
     }
 
     /// The point in units from the origin, f32. Truncation rounds it to the nearest unit from
