@@ -1,4 +1,5 @@
-//! The trade of a mesh or of curves, measured: what each setting of each structure promises, finds and costs.
+//! The trade of a mesh or of curves, measured: what each setting of each structure promises, finds
+//! and costs.
 //!
 //! ```text
 //! settings ─ recipes ─ blobs ─ ask ─┬─ intervals ─ truth ─ errors ──┬─ rows ─ pareto

@@ -111,7 +111,21 @@ impl Sdf<'_> {
         let Some(place) = self.within_field(point) else {
             return self.distance_and_gradient_beyond(point);
         };
-        let (bounds, gradient) = self.bounds_and_slopes(place)?;
+        match self.layout {
+            SdfLayout::Lattice => {
+                let (bounds, gradient) = self.value_and_slopes(place)?;
+                Ok((self.answer(self.in_input_units(bounds)), as_gradient(gradient)))
+            }
+            SdfLayout::Tree => self.distance_and_gradient_of_tree(place),
+        }
+    }
+
+    #[inline(never)]
+    fn distance_and_gradient_of_tree(
+        &self,
+        place: [u32; 3],
+    ) -> Result<(FieldDistance, [f32; 3]), QueryError> {
+        let (bounds, gradient) = self.tree_bounds_and_slopes(self.root_within(place), place)?;
         Ok((self.answer(self.in_input_units(bounds)), as_gradient(gradient)))
     }
 
@@ -122,18 +136,12 @@ impl Sdf<'_> {
         point: [f32; 3],
     ) -> Result<(FieldDistance, [f32; 3]), QueryError> {
         let (place, beyond) = self.beyond(point)?;
-        let (bounds @ [_, far], gradient) = self.bounds_and_slopes(place)?;
+        let (bounds @ [_, far], gradient) = match self.layout {
+            SdfLayout::Lattice => self.value_and_slopes(place)?,
+            SdfLayout::Tree => self.tree_bounds_and_slopes(self.root_within(place), place)?,
+        };
         let found = self.answer(self.outside_field(bounds_beyond(bounds, beyond)));
         Ok((found, away(beyond, far as f32, as_gradient(gradient))))
-    }
-
-    /// Of a place of the field, in units.
-    #[inline(always)]
-    fn bounds_and_slopes(&self, place: [u32; 3]) -> Result<([i32; 2], [i32; 3]), QueryError> {
-        match self.layout {
-            SdfLayout::Lattice => self.value_and_slopes(place),
-            SdfLayout::Tree => self.tree_bounds_and_slopes(self.root_within(place), place),
-        }
     }
 
     /// Whether the surface is at most `distance` from `point`, both in input units. Of a field of

@@ -48,7 +48,7 @@ impl Sdf<'_> {
     #[cold]
     #[inline(never)]
     fn distance_beyond_in_units(&self, place: &[i32; 3]) -> Result<UnitDistance, QueryError> {
-        let (nearest, beyond) = self.nearest(place)?;
+        let (nearest, beyond) = nearest(place, self.lattice)?;
         Ok(outside(self.value(nearest)?, beyond))
     }
 
@@ -62,7 +62,7 @@ impl Sdf<'_> {
         let (root, whole, beyond) = match self.root(whole) {
             Some(root) => (root, whole, [0; 2]),
             None => {
-                let (nearest, beyond) = self.nearest(place)?;
+                let (nearest, beyond) = nearest(place, self.units())?;
                 (self.root(nearest).ok_or(QueryError::Unchecked)?, nearest, beyond)
             }
         };
@@ -92,25 +92,25 @@ impl Sdf<'_> {
             _ => Err(QueryError::OutOfDomain),
         }
     }
+}
 
-    /// The nearest place of the field, and how far the place is beyond: the greatest of the
-    /// coordinates' distances, and their sum.
-    #[inline(always)]
-    fn nearest(&self, place: &[i32; 3]) -> Result<([u32; 3], [i32; 2]), QueryError> {
-        let (mut nearest, mut greatest, mut sum) = ([0; 3], 0, 0);
-        for ((near, &at), units) in nearest.iter_mut().zip(place).zip(self.units()) {
-            if at.unsigned_abs() > MOST_BASE.unsigned_abs() {
-                return Err(QueryError::OutOfDomain);
-            }
-            let last = units.wrapping_sub(1).cast_signed();
-            let within = at.max(0).min(last);
-            let beyond = at.wrapping_sub(within).wrapping_abs();
-            *near = within.cast_unsigned();
-            greatest = beyond.max(greatest);
-            sum = beyond.wrapping_add(sum);
+/// The nearest place of a field of so many units, and how far the place is beyond: the greatest of
+/// the coordinates' distances, and their sum.
+#[inline(always)]
+fn nearest(place: &[i32; 3], units: [u32; 3]) -> Result<([u32; 3], [i32; 2]), QueryError> {
+    let (mut nearest, mut greatest, mut sum) = ([0; 3], 0, 0);
+    for ((near, &at), units) in nearest.iter_mut().zip(place).zip(units) {
+        if at.unsigned_abs() > MOST_BASE.unsigned_abs() {
+            return Err(QueryError::OutOfDomain);
         }
-        Ok((nearest, [greatest, sum]))
+        let last = units.wrapping_sub(1).cast_signed();
+        let within = at.max(0).min(last);
+        let beyond = at.wrapping_sub(within).wrapping_abs();
+        *near = within.cast_unsigned();
+        greatest = beyond.max(greatest);
+        sum = beyond.wrapping_add(sum);
     }
+    Ok((nearest, [greatest, sum]))
 }
 
 /// Bounds of the distance of a place outside of the field, from those at the nearest place of it.
