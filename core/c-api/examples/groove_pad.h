@@ -9,7 +9,7 @@
  *                                    Cortex-M4F      Cortex-M0     Cortex-M33       RV32IMAC
  *   msw_open_sdf                    1664 / 1536    1728 / 1536    1664 / 1536    1600 / 1408
  *   msw_sdf_distance                  320 / 256      512 / 512      320 / 256      320 / 320
- *   msw_sdf_distance_and_gradient      448 / 384      768 / 640      448 / 384      448 / 384
+ *   msw_sdf_distance_and_gradient      448 / 384      704 / 640      448 / 384      384 / 384
  *   msw_sdf_within                    384 / 320      576 / 576      384 / 320      384 / 320
  *   msw_sdf_units_of                  192 / 192      320 / 384      192 / 192      256 / 256
  *   msw_sdf_distance_in_units         256 / 192      320 / 256      256 / 192      192 / 192

@@ -11,7 +11,7 @@
 //   open a distance field           1536 / 1408    1600 / 1408    1536 / 1408    1472 / 1280
 //   distance of a field               384 / 320      512 / 512      384 / 320      320 / 320
 //   distance of a field in units      384 / 320      448 / 384      384 / 320      320 / 256
-//   distance and gradient of a field      448 / 384      768 / 640      448 / 384      448 / 384
+//   distance and gradient of a field      448 / 384      704 / 640      448 / 384      384 / 384
 //   within of a field                 384 / 320      576 / 576      384 / 320      384 / 320
 //
 // Distances are in the mesh's unit. Intervals hold of the mesh, not only of the stored surface.
