@@ -16,6 +16,8 @@ pub enum Recipe {
     SegmentTree(VertexBits),
     /// A hull hierarchy for sweeps.
     Sweep(VertexBits),
+    /// The hull hierarchy of a closed mesh, for segments from outside on the refined hull.
+    Hull(VertexBits),
     /// The hull hierarchy of a closed mesh, cut after its coarsest level
     /// of which no point is farther than this from the mesh, input units.
     CutLevel(f32),
@@ -40,6 +42,7 @@ impl Recipe {
             Self::Tree(bits) => Options { vertex_bits: bits, ..serving(For::Closest) },
             Self::SegmentTree(bits) => Options { vertex_bits: bits, ..serving(For::Segment) },
             Self::Sweep(bits) => Options { vertex_bits: bits, ..serving(For::Sweep) },
+            Self::Hull(bits) => Options { vertex_bits: bits, ..serving(For::Hull) },
             Self::CutLevel(_) => serving(For::Hull),
             Self::Tight(faces) => Options {
                 tight: vec![faces],
@@ -64,6 +67,7 @@ impl Recipe {
         match self {
             Self::Tree(bits) | Self::SegmentTree(bits) => format!("box tree, {bits} bits"),
             Self::Sweep(bits) => format!("sweep, {bits} bits"),
+            Self::Hull(bits) => format!("refined hull, {bits} bits"),
             Self::CutLevel(error) => format!("cut level, error {error}"),
             Self::Tight(faces) => format!("tight hull, {faces} faces"),
             Self::Triboxes(count) => format!("triboxes, {count}"),

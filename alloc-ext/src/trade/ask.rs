@@ -1,6 +1,6 @@
 //! The answers of a setting, the work that they took, and the time of this machine.
 
-use super::cost::{Features, Shape};
+use super::cost::{Features, Search, Shape};
 use super::field::{steps, to_surface};
 use super::setting::{How, Question, Setting};
 use crate::builder::Recipe;
@@ -8,7 +8,7 @@ use crate::clock::Instant;
 use crate::distances::Distances;
 use meshsweep_core::{
     Blob, Budget, BuildFor, ClosestPoint, CoherentQuery, Curve, Ended, Facing, FirstHit, Hint,
-    Interval, QueryError, ScratchEntry, Sdf, Side, Verdict, Work,
+    Hull, Interval, OuterSearch, QueryError, RefinedHull, ScratchEntry, Sdf, Side, Verdict, Work,
 };
 use std::hint::black_box;
 
@@ -27,8 +27,9 @@ pub(super) struct Answer {
     pub is_undecided: bool,
     /// What the cost of a search is predicted from. `None`: there was none, the field was enough.
     pub features: Option<Features>,
-    /// The same of a look-up before the search, in the field of a box tree.
-    pub look_up: Option<Features>,
+    /// Another search that was asked too: the field before a box tree, or the sweep about a segment
+    /// that starts inside the refined hull's box.
+    pub beside: Option<(Search, Features)>,
 }
 
 /// What all queries answered.
@@ -117,7 +118,7 @@ pub(super) fn ask(
                 }
             }
         }
-        Recipe::Sweep(_) | Recipe::CutLevel(_) => {
+        Recipe::Sweep(_) | Recipe::Hull(_) | Recipe::CutLevel(_) => {
             let hull = blob.hull()?;
             let enough = match setting.how {
                 How::Coherent => Setting::SWEEP_ENTRIES,
@@ -151,7 +152,7 @@ pub(super) fn ask(
             twice(points, &of, |[p]| {
                 let bound = triboxes.distance(p, budget, &mut stack)?;
                 let ends = [f64::from(bound.lower), f64::INFINITY];
-                Ok(Told { ends, work: bound.work, is_undecided: false })
+                Ok(Told::new(ends, bound.work))
             })
         }
         Recipe::Sdf(_) => {
@@ -160,7 +161,7 @@ pub(super) fn ask(
             let mut asked = twice(points, &of, |[p]| {
                 let found = to_surface(&field, field.distance(p)?.distance);
                 let ends = [f64::from(found.lower), f64::from(found.upper)];
-                Ok(Told { ends, work: Work::NONE, is_undecided: false })
+                Ok(Told::new(ends, Work::NONE))
             })?;
             for (answer, place) in asked.answers.iter_mut().zip(points) {
                 answer.features = Some(of.shape.features(place, &budget, &look_up(&field, place)));
@@ -175,12 +176,13 @@ pub(super) fn ask(
             let mut asked = twice(points, &of, |[p]| {
                 let found = both.distance_bounds(p, budget, &mut stack)?;
                 let ends = [f64::from(found.distance.lower), f64::from(found.distance.upper)];
-                Ok(Told { ends, work: found.work, is_undecided: false })
+                Ok(Told::new(ends, found.work))
             })?;
             let shape = Shape::of_field(both.field());
             for (answer, place) in asked.answers.iter_mut().zip(points) {
                 let work = look_up(both.field(), place);
-                answer.look_up = Some(shape.features(place, &budget, &work));
+                let look_up = Search::of_field(both.field());
+                answer.beside = Some((look_up, shape.features(place, &budget, &work)));
                 let was_asked = |features: &Features| features[OPENED] > 0.0;
                 answer.features = answer.features.filter(was_asked);
             }
@@ -216,7 +218,7 @@ fn of_curves(
     let of = Of { budget, shape: Shape::of_curve(curve), scratch: size_of_val(queue.as_slice()) };
     let told = |distance: Interval, is_undecided, work| {
         let ends = [distance.lower, distance.upper].map(f64::from);
-        Told { ends, work, is_undecided }
+        Told { is_undecided, ..Told::new(ends, work) }
     };
     match question {
         Question::Within(distance) => twice(points, &of, |[p]| {
@@ -228,12 +230,14 @@ fn of_curves(
                 _ => [0.0, f64::INFINITY],
             };
             let is_undecided = matches!(found.verdict, Verdict::Undecided(_));
-            Ok(Told { ends, work: found.work, is_undecided })
+            Ok(Told { is_undecided, ..Told::new(ends, found.work) })
         }),
         Question::Signed => twice(points, &of, |[[x, y, _]]| {
             let found = curve.signed_distance([x, y], budget, &mut queue)?;
             let is_undecided = matches!(found.side, Side::Undecided(_));
-            Ok(told(found.closest.distance, is_undecided, found.closest.work))
+            // Of a side that is decided the truth has no sign.
+            let distance = if is_undecided { found.distance } else { found.closest.distance };
+            Ok(told(distance, is_undecided, found.closest.work))
         }),
         _ if is_kept => {
             let begin = points.first().map_or([0.0; 3], |&[begin]| begin);
@@ -259,6 +263,7 @@ fn first_hits(
 ) -> Result<Asked, QueryError> {
     let budget = setting.budget;
     match setting.recipe {
+        Recipe::Hull(_) => outer_hits(setting, &blob.hull()?, segments),
         Recipe::Sweep(_) | Recipe::CutLevel(_) => {
             let hull = blob.hull()?;
             let mut queue = entries(setting, hull.scratch_entries());
@@ -281,18 +286,51 @@ fn first_hits(
     }
 }
 
+/// First hits on the refined hull, asked twice likewise. A segment that starts inside its box is
+/// asked again of the sweep.
+fn outer_hits(
+    setting: &Setting,
+    hull: &Hull<'_>,
+    segments: &[[[f32; 3]; 2]],
+) -> Result<Asked, QueryError> {
+    let budget = setting.budget;
+    let mut refined = RefinedHull::<{ Setting::SPLITS }>::new();
+    let mut beside = entries(setting, Setting::BESIDE_SPLITS);
+    let mut queue = vec![ScratchEntry::EMPTY; hull.scratch_entries()];
+    // Both searches may have the same scratch, one after the other.
+    let scratch = size_of_val(beside.as_slice()).max(size_of_val(queue.as_slice()));
+    let scratch = size_of_val(&refined) + scratch;
+    let of = Of { budget, shape: Shape::of_hull(hull), scratch };
+    twice(segments, &of, |[a, b]| {
+        refined.reset();
+        let (first, none) = (OuterSearch::First, &mut []);
+        let outer = hull.outer_hits(a, b, first, &mut refined, none, budget, &mut beside)?;
+        if outer.starts_inside {
+            let swept = hull.first_hit(a, b, budget, &mut queue)?;
+            let beside = Some((Search::FirstHitOfHull, swept.work));
+            return Ok(Told { work: outer.work, beside, ..of_hit([a, b], &swept) });
+        }
+        let is_undecided = outer.t.lower.is_finite() && outer.ended != Ended::Exact;
+        let told = Told::new(free_length([a, b], outer.t), outer.work);
+        Ok(Told { is_undecided, ..told })
+    })
+}
+
 fn of_closest(near: ClosestPoint) -> Told {
-    let ends = [near.distance.lower, near.distance.upper].map(f64::from);
-    Told { ends, work: near.work, is_undecided: false }
+    Told::new([near.distance.lower, near.distance.upper].map(f64::from), near.work)
+}
+
+fn of_hit(ends: [[f32; 3]; 2], hit: &FirstHit) -> Told {
+    let is_hit = hit.hit.is_some() && hit.ended == Ended::Exact;
+    let is_undecided = !hit.is_clear() && !is_hit;
+    Told { is_undecided, ..Told::new(free_length(ends, hit.t), hit.work) }
 }
 
 /// The free length. That of a clear segment is its length, and no hit that is not known is later.
-fn of_hit([a, b]: [[f32; 3]; 2], hit: &FirstHit) -> Told {
+fn free_length([a, b]: [[f32; 3]; 2], t: Interval) -> [f64; 2] {
     let [a, b] = [a, b].map(|end| glam::Vec3::from(end).as_dvec3());
     let length = a.distance(b);
-    let ends = [hit.t.lower, hit.t.upper].map(|t| f64::from(t).min(1.0) * length);
-    let is_hit = hit.hit.is_some() && hit.ended == Ended::Exact;
-    Told { ends, work: hit.work, is_undecided: !hit.is_clear() && !is_hit }
+    [t.lower, t.upper].map(|t| f64::from(t).min(1.0) * length)
 }
 
 fn plain(
@@ -304,7 +342,7 @@ fn plain(
     twice(points, of, |[p]| {
         let near = structure.closest_point(p, of.budget, scratch)?;
         let ends = [near.distance.lower, near.distance.upper].map(f64::from);
-        Ok(Told { ends, work: near.work, is_undecided: false })
+        Ok(Told::new(ends, near.work))
     })
 }
 
@@ -322,6 +360,14 @@ struct Told {
     ends: [f64; 2],
     work: Work,
     is_undecided: bool,
+    /// Another search that was asked too.
+    beside: Option<(Search, Work)>,
+}
+
+impl Told {
+    const fn new(ends: [f64; 2], work: Work) -> Self {
+        Self { ends, work, is_undecided: false, beside: None }
+    }
 }
 
 type Found = Result<Told, QueryError>;
@@ -342,9 +388,10 @@ fn first<const N: usize>(
     mut one: impl FnMut([[f32; 3]; N]) -> Found,
 ) -> Result<Asked, QueryError> {
     let answers = places.iter().map(|&place| {
-        let Told { ends: [lower, upper], work, is_undecided } = one(place)?;
-        let features = Some(of.shape.features(&place, &of.budget, &work));
-        Ok(Answer { lower, upper, is_undecided, features, look_up: None })
+        let Told { ends: [lower, upper], work, is_undecided, beside } = one(place)?;
+        let features = |work: Work| of.shape.features(&place, &of.budget, &work);
+        let beside = beside.map(|(search, work)| (search, features(work)));
+        Ok(Answer { lower, upper, is_undecided, features: Some(features(work)), beside })
     });
     let answers = answers.collect::<Result<Vec<_>, QueryError>>()?;
     Ok(Asked { answers, nanoseconds: 0.0, scratch: of.scratch })

@@ -17,6 +17,8 @@ pub enum NotBuilt {
         /// Its faces.
         faces: usize,
     },
+    /// Vertices of the hull hierarchy were rounded, and the refined hull needs them as they are.
+    Rounded,
     /// Every level that is coarser than the surface is farther from it than asked.
     NoLevel,
 }
@@ -28,6 +30,7 @@ impl fmt::Display for NotBuilt {
             Self::Refused(BuildError::NotSolid { error, .. }) => error.fmt(f),
             Self::Refused(error) => error.fmt(f),
             Self::Stuck { faces } => write!(f, "the search stopped at {faces} faces"),
+            Self::Rounded => f.write_str("f32 does not hold the coordinates as they are"),
             Self::NoLevel => f.write_str("every coarser level is farther from the surface"),
         }
     }
@@ -62,6 +65,9 @@ pub(super) fn build_group(
 pub(super) fn kept(recipe: Recipe, built: &Built) -> Result<Built, NotBuilt> {
     match (recipe, built.tight.first()) {
         (Recipe::CutLevel(error), _) => cut_level(built, error),
+        (Recipe::Hull(_), _) if built.blob().hull().is_ok_and(|of| of.surface_error() > 0.0) => {
+            Err(NotBuilt::Rounded)
+        }
         (Recipe::Tight(most), Some(report)) if report.wrapped.faces > most as usize => {
             Err(NotBuilt::Stuck { faces: report.wrapped.faces })
         }

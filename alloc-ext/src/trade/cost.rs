@@ -58,6 +58,8 @@ pub enum Search {
     FirstHitF32,
     /// The first hit of a segment in a hull hierarchy.
     FirstHitOfHull,
+    /// The first hit of a segment from outside, on the refined hull.
+    OuterHit,
     /// Whether two box trees, or two tight hulls, are within a distance of each other.
     PairOfTrees,
     /// Whether triboxes prove that two models are farther than a distance.
@@ -78,7 +80,7 @@ pub enum Search {
 
 impl Search {
     /// All whose costs are fitted.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Tree,
         Self::TreeF32,
         Self::Precise,
@@ -91,6 +93,7 @@ impl Search {
         Self::FirstHit,
         Self::FirstHitF32,
         Self::FirstHitOfHull,
+        Self::OuterHit,
         Self::PairOfTrees,
         Self::PairOfTriboxes,
         Self::Curve,
@@ -127,6 +130,7 @@ impl Search {
             Self::Triboxes => "triboxes apart",
             Self::FirstHit | Self::FirstHitF32 => "first hit",
             Self::FirstHitOfHull => "first hit of a hull",
+            Self::OuterHit => "outer hits",
             Self::PairOfTrees => "distance of two models",
             Self::PairOfTriboxes => "within of triboxes",
             // Below `within` there is the same search, with less beside it.
@@ -153,6 +157,7 @@ impl Search {
             Self::FirstHit => "first hit",
             Self::FirstHitF32 => "first hit, f32",
             Self::FirstHitOfHull => "first hit, hull",
+            Self::OuterHit => "first hit, refined",
             Self::PairOfTrees => "pair of trees",
             Self::PairOfTriboxes => "pair of triboxes",
             Self::Curve => "curve",

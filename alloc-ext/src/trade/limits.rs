@@ -2,6 +2,7 @@
 
 use super::cost::Board;
 use super::measure::{Instructions, Row, Trade};
+use super::pairs::{PairRow, PairTrade};
 use crate::builder::Built;
 use crate::number::AtMost;
 use std::cmp::Ordering;
@@ -73,10 +74,19 @@ pub enum Unmet {
     NothingMeasured,
     /// No structure gives intervals.
     NoIntervals,
+    /// Two models keep the distance at no pose.
+    NeverClear,
     /// The setting that comes nearest to the limits, and where it exceeds them.
     Beyond {
         /// The setting as measured.
         nearest: Box<Row>,
+        /// The limits.
+        limits: Limits,
+    },
+    /// The same of structures of two models.
+    BeyondOfPair {
+        /// The structure as measured.
+        nearest: Box<PairRow>,
         /// The limits.
         limits: Limits,
     },
@@ -89,19 +99,51 @@ impl fmt::Display for Unmet {
                 f.write_str("nothing was measured: there are no points, or no structure was built")
             }
             Self::NoIntervals => f.write_str("no structure gives intervals"),
+            Self::NeverClear => {
+                f.write_str("no pose keeps the distance, so no structure can be told from another")
+            }
             Self::Beyond { nearest, limits } => {
                 let (name, dials) = (nearest.name(), nearest.setting.dials());
                 write!(
                     f,
                     "no setting meets these limits; the nearest is {name}: {dials}, which needs "
                 )?;
-                f.write_str(&limits.needs(nearest).join(" and "))
+                f.write_str(&limits.needs(&nearest.costs()).join(" and "))
+            }
+            Self::BeyondOfPair { nearest, limits } => {
+                let name = nearest.structure.name();
+                write!(f, "no structure meets these limits; the nearest is {name}, which needs ")?;
+                f.write_str(&limits.needs(&nearest.costs()).join(" and "))
             }
         }
     }
 }
 
 impl std::error::Error for Unmet {}
+
+/// What limits are compared with.
+struct Costs {
+    flash: usize,
+    scratch: usize,
+    /// `None`: no error is asked of it.
+    error: Option<f64>,
+    boards: [Option<Instructions>; 2],
+    stack: [u32; 2],
+}
+
+impl Row {
+    fn costs(&self) -> Costs {
+        let &Self { flash, scratch, boards, stack, .. } = self;
+        Costs { flash, scratch, error: Some(self.error()), boards, stack }
+    }
+}
+
+impl PairRow {
+    fn costs(&self) -> Costs {
+        let &Self { flash, scratch, boards, stack, .. } = self;
+        Costs { flash: flash.iter().sum(), scratch, error: None, boards, stack }
+    }
+}
 
 /// The limit, if the value is not within it. Nothing is within a limit that is no number.
 fn exceeded(value: f64, limit: Option<f64>) -> Option<f64> {
@@ -115,16 +157,20 @@ impl Limits {
         self.cpu.map_or(Board::CortexM4F, |cpu| cpu.board)
     }
 
-    /// Instructions of a setting on the [board](Self::board).
+    /// Those of the [board](Self::board).
     #[must_use]
-    pub fn instructions(&self, row: &Row) -> Option<Instructions> {
-        Board::ALL.iter().zip(row.boards).find(|(of, _)| **of == self.board())?.1
+    pub fn instructions(&self, boards: [Option<Instructions>; 2]) -> Option<Instructions> {
+        self.of_board(boards)?
     }
 
-    /// Bytes of RAM that a setting takes: its scratch, and the board's stack.
+    /// Bytes of RAM that a query takes: its scratch, and the board's stack.
     #[must_use]
-    pub fn ram(&self, row: &Row) -> f64 {
-        row.scratch as f64 + self.instructions(row).map_or(0.0, |found| f64::from(found.stack))
+    pub fn ram(&self, scratch: usize, stack: [u32; 2]) -> f64 {
+        scratch as f64 + self.of_board(stack).map_or(0.0, f64::from)
+    }
+
+    fn of_board<T>(&self, all: [T; 2]) -> Option<T> {
+        Board::ALL.iter().zip(all).find(|(of, _)| **of == self.board()).map(|(_, found)| found)
     }
 
     /// Chooses a setting that meets all limits: with a limit of the error the one of the fewest
@@ -139,7 +185,7 @@ impl Limits {
             return Err(Unmet::NothingMeasured);
         }
         let rows = || trade.rows.iter().filter(|row| row.guaranteed.is_some());
-        let mut meeting: Vec<&Row> = rows().filter(|row| self.is_met(row)).collect();
+        let mut meeting: Vec<&Row> = rows().filter(|row| self.is_met(&row.costs())).collect();
         meeting.sort_by(|a, b| self.compare(a, b));
         let built = meeting
             .first()
@@ -151,32 +197,70 @@ impl Limits {
         Ok(Choice { first: first.clone(), second, built: built.clone() })
     }
 
+    /// Chooses a structure of two models that meets all limits but that of the error, which it has
+    /// not: the one that leaves the fewest poses without a proof, and of equal ones the one of the
+    /// fewest mean instructions. One that calls a pose clear which is not is left out. With it
+    /// comes the best structure without it, if another one meets the limits. Flash is both blobs'.
+    /// [`measure_pair`](super::measure_pair()) gives the structures.
+    ///
+    /// # Errors
+    /// [`Unmet`].
+    pub fn choose_pair<'t>(
+        &self,
+        trade: &'t PairTrade,
+    ) -> Result<(&'t PairRow, Option<&'t PairRow>), Unmet> {
+        if trade.clear == 0 {
+            return Err(Unmet::NeverClear);
+        }
+        let rows = || trade.rows.iter().filter(|row| row.missed == 0);
+        let mut meeting: Vec<&PairRow> = rows().filter(|row| self.is_met(&row.costs())).collect();
+        let mean = |row: &PairRow| self.mean(row.boards);
+        meeting.sort_by(|a, b| {
+            let cost = mean(a).total_cmp(&mean(b)).then(a.flash.iter().cmp(&b.flash));
+            a.false_alarms.cmp(&b.false_alarms).then(cost)
+        });
+        if let Some(&first) = meeting.first() {
+            return Ok((first, meeting.get(1).copied()));
+        }
+        let excess = |row: &&PairRow| self.excess(&row.costs());
+        let nearest = rows().min_by(|a, b| excess(a).total_cmp(&excess(b)));
+        let nearest = Box::new(nearest.ok_or(Unmet::NothingMeasured)?.clone());
+        Err(Unmet::BeyondOfPair { nearest, limits: *self })
+    }
+
     /// Cycles that a query may take at the rate.
     fn cycles(&self) -> Option<f64> {
         self.rate.zip(self.cpu).map(|(rate, cpu)| cpu.hertz / rate)
     }
 
+    /// Mean instructions; infinite if no cost was fitted.
+    fn mean(&self, boards: [Option<Instructions>; 2]) -> f64 {
+        self.instructions(boards).map_or(f64::INFINITY, |found| found.mean)
+    }
+
     /// Values that are limited, each with its limit: flash, RAM, error, cycles of a query.
-    fn limited(&self, row: &Row) -> [(f64, Option<f64>); 4] {
+    fn limited(&self, costs: &Costs) -> [(f64, Option<f64>); 4] {
+        let &Costs { flash, scratch, error, boards, stack } = costs;
         // A cost that was not fitted meets no rate.
-        let cycles = self.instructions(row).map_or(f64::INFINITY, |found| found.at_most() * CYCLES);
+        let cycles =
+            self.instructions(boards).map_or(f64::INFINITY, |found| found.at_most() * CYCLES);
         [
-            (row.flash as f64, self.flash.map(|bytes| bytes as f64)),
-            (self.ram(row), self.ram.map(|bytes| bytes as f64)),
-            (row.error(), self.error),
+            (flash as f64, self.flash.map(|bytes| bytes as f64)),
+            (self.ram(scratch, stack), self.ram.map(|bytes| bytes as f64)),
+            (error.unwrap_or(0.0), self.error.filter(|_| error.is_some())),
             (cycles, self.cycles()),
         ]
     }
 
     /// Whether all values are within their limits.
-    fn is_met(&self, row: &Row) -> bool {
-        self.limited(row).iter().all(|&(value, limit)| exceeded(value, limit).is_none())
+    fn is_met(&self, costs: &Costs) -> bool {
+        self.limited(costs).iter().all(|&(value, limit)| exceeded(value, limit).is_none())
     }
 
     /// How many times its limit the value is that exceeds it most.
-    fn excess(&self, row: &Row) -> f64 {
+    fn excess(&self, costs: &Costs) -> f64 {
         let ratio = |limit, value| if limit > 0.0 { value / limit } else { f64::INFINITY };
-        let all = self.limited(row).into_iter();
+        let all = self.limited(costs).into_iter();
         all.filter_map(|(value, limit)| Some(ratio(exceeded(value, limit)?, value)))
             .fold(0.0, f64::max)
     }
@@ -184,7 +268,7 @@ impl Limits {
     /// The order in which settings are preferred.
     fn compare(&self, a: &Row, b: &Row) -> Ordering {
         let key = |row: &Row| {
-            let mean = self.instructions(row).map_or(f64::INFINITY, |found| found.mean);
+            let mean = self.mean(row.boards);
             match self.error {
                 Some(_) => [mean, row.error(), row.flash as f64],
                 None => [row.error(), mean, row.flash as f64],
@@ -196,17 +280,20 @@ impl Limits {
 
     /// Which setting comes nearest.
     fn unmet<'r>(&self, rows: impl Iterator<Item = &'r Row>) -> Unmet {
-        let nearest = rows.min_by(|a, b| self.excess(a).total_cmp(&self.excess(b)));
+        let excess = |row: &Row| self.excess(&row.costs());
+        let nearest = rows.min_by(|a, b| excess(a).total_cmp(&excess(b)));
         let Some(nearest) = nearest else { return Unmet::NoIntervals };
         Unmet::Beyond { nearest: Box::new(nearest.clone()), limits: *self }
     }
 
-    /// What a setting needs beyond the limits, as options.
-    fn needs(&self, row: &Row) -> Vec<String> {
-        let options = ["--flash", "--ram", "--error", "--rate"].into_iter().zip(self.limited(row));
+    /// What is needed beyond the limits, as options.
+    fn needs(&self, costs: &Costs) -> Vec<String> {
+        let options = ["--flash", "--ram", "--error", "--rate"].into_iter();
+        let options = options.zip(self.limited(costs));
         let beyond = options.filter_map(|(option, (value, limit))| {
             let limit = exceeded(value, limit)?;
             Some(match (option, self.cpu) {
+                ("--rate", _) if value.is_infinite() => "a cost that was not counted".to_owned(),
                 ("--rate", Some(cpu)) if cpu.hertz >= value => {
                     let rates = [cpu.hertz / value, cpu.hertz / limit].map(f64::floor);
                     format!("--rate {}Hz instead of {}Hz", rates[0], rates[1])

@@ -57,21 +57,25 @@ pub struct Instructions {
     pub error: f64,
     /// The median of these errors on meshes that the fit has not seen.
     pub typical: f64,
-    /// Bytes of the processor's stack below the caller, at most.
-    pub stack: u32,
 }
 
 impl Instructions {
     /// Of queries whose instructions a cost predicts.
-    pub(super) fn of(cost: &Cost, stack: u32, all: &[f64]) -> Self {
+    pub(super) fn of(cost: &Cost, all: &[f64]) -> Self {
         Self {
             mean: all.iter().sum::<f64>() / all.len() as f64,
             most: all.iter().copied().fold(0.0, f64::max),
             missed_by: cost.missed_by,
             error: cost.error,
             typical: cost.typical,
-            stack,
         }
+    }
+
+    /// Where a second search is asked too, its errors, if they are worse.
+    fn no_better_than(&mut self, other: &Cost) {
+        self.missed_by = self.missed_by.max(other.missed_by);
+        self.error = self.error.max(other.error);
+        self.typical = self.typical.max(other.typical);
     }
 
     /// Of the costliest query, with what the fit missed at most.
@@ -102,6 +106,8 @@ pub struct Row {
     pub nanoseconds: f64,
     /// Predicted, in the order of [`Board::ALL`]; `None` if no cost was fitted.
     pub boards: [Option<Instructions>; 2],
+    /// Bytes of the processor's stack below the caller, at most, by board.
+    pub stack: [u32; 2],
     /// Of a distance field, alone or before a box tree, how it lies in its bytes.
     pub layout: Option<SdfLayout>,
     /// Of a cut hierarchy the level that is left as the finest.
@@ -332,32 +338,40 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
     let is_bounded = answers.iter().all(|answer| answer.upper.is_finite());
     let blob = built.blob();
     let field = blob.sdf().ok();
+    let is_of_both = matches!(setting.recipe, Recipe::TreeWithSdf(_));
     let search = match (setting.search(), field) {
         (Search::Field, Some(of)) => Search::of_field(&of),
         (search, _) => search,
     };
     let boards = Board::ALL.map(|board| {
         let cost = fitted_cost(board, search)?;
-        let look_up = fitted_cost(board, field.map_or(Search::Field, |of| Search::of_field(&of)))?;
         let of = |answer: &Answer| {
             let searched = answer.features.as_ref().map_or(0.0, |features| cost.of(features));
-            searched + answer.look_up.as_ref().map_or(0.0, |features| look_up.of(features))
+            let Some((search, features)) = &answer.beside else { return Some(searched) };
+            Some(searched + fitted_cost(board, *search)?.of(features))
         };
-        let all: Vec<f64> = answers.iter().map(of).collect();
-        let mut found = Instructions::of(cost, search.stack(board), &all);
+        let all: Vec<f64> = answers.iter().map(of).collect::<Option<_>>()?;
+        let mut found = Instructions::of(cost, &all);
+        if let Some((search, _)) = answers.iter().find_map(|answer| answer.beside) {
+            found.no_better_than(fitted_cost(board, search)?);
+        }
         if let (Search::Field | Search::FieldTree, Some(of)) = (search, field) {
             found.most = field::most(board, &of);
         }
         Some(found)
     });
     let mean = |feature: usize| {
-        let of = |answer: &Answer| answer.features.map_or(0.0, |features| features[feature]);
+        // The look-up of a field before a box tree counts apart.
+        let beside = |answer: &Answer| answer.beside.filter(|_| !is_of_both);
+        let of = |answer: &Answer| {
+            let all = answer.features.into_iter().chain(beside(answer).map(|(_, of)| of));
+            all.map(|features| features[feature]).sum::<f64>()
+        };
         answers.iter().map(of).sum::<f64>() / answers.len() as f64
     };
     let part = |is: fn(&Answer) -> bool| {
         answers.iter().filter(|answer| is(answer)).count() as f64 / answers.len().max(1) as f64
     };
-    let is_of_both = answers.iter().any(|answer| answer.look_up.is_some());
     Some(Row {
         setting,
         guaranteed: each(&|i| upper(i) - lower(i)).filter(|_| is_bounded),
@@ -366,6 +380,7 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
         undecided: answers.iter().filter(|answer| answer.is_undecided).count(),
         nanoseconds: *nanoseconds,
         boards,
+        stack: setting.stack(),
         layout: field.map(|of| of.layout()),
         level: built.cut_level(),
         flash: built.bytes().len(),

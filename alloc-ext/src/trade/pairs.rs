@@ -152,6 +152,8 @@ pub struct PairRow {
     pub structure: PairStructure,
     /// Predicted, in the order of [`Board::ALL`]; `None` if no cost was fitted.
     pub boards: [Option<Instructions>; 2],
+    /// Bytes of the processor's stack below the caller, at most, by board.
+    pub stack: [u32; 2],
     /// Poses that are proved to keep the distance.
     pub clear: usize,
     /// Poses that are not, although they do.
@@ -253,14 +255,17 @@ fn row(
         let search = structure.search()?;
         let cost = cost(board, search)?;
         let all = answers.iter().map(|(_, work)| cost.of(&features_of_pair(work)));
-        Some(Instructions::of(cost, search.stack(board), &all.collect::<Vec<_>>()))
+        Some(Instructions::of(cost, &all.collect::<Vec<_>>()))
     });
+    // Box trees of any vertices are asked alike.
+    let search = structure.search().unwrap_or(Search::PairOfTrees);
     let count = |is: &dyn Fn(&Verdict, &Verdict) -> bool| {
         answers.iter().zip(exact).filter(|((verdict, _), exact)| is(verdict, exact)).count()
     };
     PairRow {
         structure,
         boards,
+        stack: Board::ALL.map(|board| search.stack(board)),
         clear: count(&|verdict, _| is_clear(verdict)),
         false_alarms: count(&|verdict, exact| !is_clear(verdict) && is_clear(exact)),
         undecided: count(&|verdict, _| matches!(verdict, Verdict::Undecided(_))),

@@ -1,8 +1,9 @@
 //! A recipe and how it is asked, and the list that is measured by default.
 
-use super::cost::Search;
+use super::cost::{Board, Search};
 use super::points::Points;
 use crate::builder::Recipe;
+use crate::emit::source::stack_bound;
 use crate::surface::VertexBits;
 use meshsweep_core::Budget;
 use std::fmt;
@@ -58,8 +59,9 @@ pub struct Setting {
     /// What a query keeps of the one before.
     pub how: How,
     /// Entries of scratch, at least one; more than suffice count as those that suffice. `None`: as
-    /// many as suffice, twice as many for a box tree with a limit of steps, or
-    /// [`SWEEP_ENTRIES`](Self::SWEEP_ENTRIES) of a kept sweep.
+    /// many as suffice, twice as many for a box tree with a limit of steps,
+    /// [`SWEEP_ENTRIES`](Self::SWEEP_ENTRIES) of a kept sweep, or
+    /// [`BESIDE_SPLITS`](Self::BESIDE_SPLITS) of the refined hull.
     pub entries: Option<usize>,
 }
 
@@ -77,6 +79,13 @@ impl Setting {
     /// to query. Answers about far points may end for lack of them.
     pub const SWEEP_ENTRIES: usize = 512;
 
+    /// Splits of the refined hull: 8 KiB. Segments that need more are undecided.
+    pub const SPLITS: usize = 500;
+
+    /// Entries of scratch beside the refined hull, unless told otherwise. With fewer it answers
+    /// too, more slowly.
+    pub const BESIDE_SPLITS: usize = 64;
+
     /// Fresh queries of closest points, to the end, with enough scratch.
     #[must_use]
     pub const fn new(recipe: Recipe) -> Self {
@@ -85,7 +94,7 @@ impl Setting {
     }
 
     /// First hits of segments, to the end, with enough scratch. Box trees for segments and sweeps
-    /// answer them.
+    /// answer them, and the refined hull. A segment that starts inside its box goes to the sweep.
     #[must_use]
     pub const fn first_hit(recipe: Recipe) -> Self {
         Self { question: Question::FirstHit, ..Self::new(recipe) }
@@ -103,6 +112,7 @@ impl Setting {
         if matches!(self.question, Question::FirstHit) {
             return match self.recipe {
                 Recipe::Sweep(_) | Recipe::CutLevel(_) => Search::FirstHitOfHull,
+                Recipe::Hull(_) => Search::OuterHit,
                 Recipe::SegmentTree(VertexBits::Auto | VertexBits::Grid16) => Search::FirstHit,
                 _ => Search::FirstHitF32,
             };
@@ -119,8 +129,10 @@ impl Setting {
             (Recipe::Tree(_), How::Precise) => Search::Precise,
             (Recipe::Tree(VertexBits::Auto | VertexBits::Grid16), How::Fresh) => Search::Tree,
             (Recipe::Tree(_) | Recipe::SegmentTree(_), _) => Search::TreeF32,
-            (Recipe::Sweep(_) | Recipe::CutLevel(_), How::Coherent) => Search::KeptSweep,
-            (Recipe::Sweep(_) | Recipe::CutLevel(_), _) => Search::Sweep,
+            (Recipe::Sweep(_) | Recipe::Hull(_) | Recipe::CutLevel(_), How::Coherent) => {
+                Search::KeptSweep
+            }
+            (Recipe::Sweep(_) | Recipe::Hull(_) | Recipe::CutLevel(_), _) => Search::Sweep,
             (Recipe::Tight(_), _) => Search::Tight,
             (Recipe::Triboxes(_), _) => Search::Triboxes,
             (Recipe::Sdf(_), _) => Search::Field,
@@ -129,13 +141,27 @@ impl Setting {
         }
     }
 
+    /// Bytes of the processor's stack below the caller that a query takes at most, by board.
+    #[must_use]
+    pub fn stack(&self) -> [u32; 2] {
+        let search = match self.search() {
+            // A segment that starts in the hull's box is asked of the sweep, which takes more.
+            Search::OuterHit => Search::FirstHitOfHull,
+            search => search,
+        };
+        Board::ALL.map(|board| match self.recipe {
+            Recipe::TreeWithSdf(_) => stack_bound("field-first bounds", board.name()),
+            _ => search.stack(board),
+        })
+    }
+
     /// Whether queries of its kind were counted when the costs were fitted. Of other kinds the
     /// error of a prediction is unknown.
     #[must_use]
     pub const fn is_counted(&self) -> bool {
         let is_of_fit = match self.recipe {
             Recipe::Tree(bits) | Recipe::SegmentTree(bits) => !matches!(bits, VertexBits::Grid24),
-            Recipe::Sweep(bits) => matches!(bits, VertexBits::F32),
+            Recipe::Sweep(bits) | Recipe::Hull(bits) => matches!(bits, VertexBits::F32),
             Recipe::Tight(faces) => faces == 200,
             Recipe::Triboxes(count) => count == 64,
             Recipe::Sdf(_) | Recipe::Curve(_) => true,
@@ -251,6 +277,7 @@ pub fn standard_of_segments() -> Vec<Setting> {
     let sweeps = bits.map(|bits| Setting::first_hit(Recipe::Sweep(bits)));
     all.extend(sweeps);
     all.extend([16, 64].map(|steps| sweeps[2].with_budget(exact.with_steps(steps))));
+    all.push(Setting::first_hit(Recipe::Hull(VertexBits::F32)));
     all
 }
 

@@ -51,6 +51,11 @@ fn build_as_json_tells_curves_and_what_limits_chose() {
     assert_eq!(told["contents"], info(&out));
     assert!(told["triangles"].as_u64() > Some(0) && chosen["structure"].is_string());
     assert!(told["options"].as_str().unwrap().starts_with("--for "), "{told}");
+    let curve = fixture("fence.csv");
+    let fence = ["build", arg(&curve), "-o", arg(&out), "--json", "--flash", "1M"];
+    let told = json(&[&fence[..], &["--closed"]].concat());
+    assert_eq!(told["chosen"]["first"]["structure"], "curve, 16 bits");
+    assert_eq!(told["options"], "--for curve --vertex-bits 16 --closed");
 }
 
 #[test]

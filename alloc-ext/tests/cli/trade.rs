@@ -1,10 +1,10 @@
 //! `meshsweep trade`, and `build` with limits.
 
 use crate::support::{
-    Triangle, arg, coarse_torus, distance, dot, first_crossing, number, ok, parse_csv,
+    Triangle, arg, coarse_torus, distance, dot, first_crossing, fixture, number, ok, parse_csv,
     random_queries, refused, run, scratch, sub, triangles, wide, write_csv,
 };
-use meshsweep_core::{Budget, Bvh, Facing, Scratch};
+use meshsweep_core::{Budget, Bvh, Facing, Hull, OuterSearch, RefinedHull, Scratch};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -107,6 +107,62 @@ fn free_length(segment: &[f32; 6], surface: &[Triangle]) -> f64 {
     dot(along, along).sqrt() * first_crossing(a, b, surface).unwrap_or(1.0)
 }
 
+/// Free lengths on the refined hull, and whether each was found there; of a segment that starts in
+/// its box by the sweep.
+fn on_refined_hull(hull: &Hull<'_>, segments: &[[f32; 6]]) -> Vec<([f64; 2], bool)> {
+    let (mut refined, mut scratch) = (RefinedHull::<500>::new(), Scratch::<512>::new());
+    let (exact, first) = (Budget::EXACT, OuterSearch::First);
+    let of = |segment: &[f32; 6]| {
+        let &[a, b] = segment.as_chunks::<3>().0 else { unreachable!() };
+        refined.reset();
+        let outer = hull.outer_hits(a, b, first, &mut refined, &mut [], exact, &mut scratch);
+        let outer = outer.unwrap();
+        let t = match outer.starts_inside {
+            true => hull.first_hit(a, b, exact, &mut scratch).unwrap().t,
+            false => outer.t,
+        };
+        let along = sub(wide(&b), wide(&a));
+        let ends = [t.lower, t.upper].map(|t| f64::from(t).min(1.0) * dot(along, along).sqrt());
+        (ends, !outer.starts_inside)
+    };
+    segments.iter().map(of).collect()
+}
+
+#[test]
+fn free_lengths_on_the_refined_hull_are_those_of_an_independent_crossing() {
+    let directory = scratch("trade_refined");
+    let (mesh, hulls) = (fixture("torus.ply"), directory.join("hulls.msw"));
+    let (file, surface) = (directory.join("segments.csv"), triangles(&mesh));
+    let queries = random_queries::<6>(&surface, 60);
+    write_csv(&file, &queries);
+    let trade = measured(&mesh, &["--for", "segment", "--at", arg(&file)]);
+    let of = |row: &&Value| row["structure"] == "refined hull, 32 bits";
+    let row = rows(&trade).iter().find(of).expect("the mesh is closed, and f32 holds it");
+    let build: Vec<&str> = row["build"].as_str().unwrap().split(' ').collect();
+    ok([&["build", arg(&mesh), "-o", arg(&hulls)], &build[..]].concat());
+    let bytes = fs::read(&hulls).unwrap();
+    let found = on_refined_hull(&Hull::open(&bytes).unwrap(), &queries);
+    let mut refined = 0;
+    for (([lower, upper], is_outer), query) in found.iter().zip(&queries) {
+        let truth = free_length(query, &surface);
+        assert!(lower - 1e-12 <= truth && truth <= upper + 1e-12, "{lower} {truth} {upper}");
+        let &[[a, b]] = query.as_chunks::<3>().0.as_chunks::<2>().0 else { unreachable!() };
+        let along = sub(wide(&b), wide(&a));
+        let is_hit = truth < 0.999 * dot(along, along).sqrt();
+        refined += u32::from(*is_outer && is_hit && upper - lower < 1e-5);
+    }
+    assert!(refined > 5, "{refined} hits were found on the refined hull");
+    let width = found.iter().map(|([lower, upper], _)| upper - lower).fold(0.0, f64::max);
+    let guaranteed = worst(row, "guaranteed").unwrap();
+    assert!((guaranteed - width).abs() <= 1e-9 * width, "{row}: {width}");
+    assert_eq!(row["flash"].as_u64(), Some(bytes.len() as u64));
+    // f32 does not hold a tenth.
+    let tenth = directory.join("tenth.obj");
+    fs::write(&tenth, CUBE.replace("v 1 ", "v 0.1 ")).unwrap();
+    let trade = measured(&tenth, &["--for", "segment", "--points", "3"]);
+    assert!(!rows(&trade).iter().any(|row| of(&row)), "{trade}");
+}
+
 #[test]
 fn free_lengths_of_segments_are_those_of_an_independent_crossing() {
     let directory = scratch("trade_segments");
@@ -168,7 +224,7 @@ fn limits_of_segments_choose_what_answers_segments() {
     let build = ["build", arg(&mesh), "-o", arg(&blob), "--for", "segment"];
     let limits = ["--flash", "8K", "--rate", "1kHz", "--cpu", "m4f:168MHz"];
     let text = ok([&build[..], &limits[..]].concat());
-    assert!(text.contains(", by first_hit") && text.contains(" segments from near"), "{text}");
+    assert!(text.contains("_hit") && text.contains(" segments from near"), "{text}");
     assert!(text.contains("  undecided: 0 of these segments\n"), "{text}");
     let text = ok(["trade", arg(&mesh), "--for", "segment", "--points", "9"]);
     assert!(text.contains(" median undecided ") && text.contains("undecided: segments"), "{text}");
@@ -236,6 +292,47 @@ fn limits_choose_a_setting_that_meets_them_or_name_the_nearest() {
     for wrong in [&["--flash", "8K", "--for", "hull"][..], &["--cpu", "m0:48MHz"]] {
         refused(&run([&build[..], wrong].concat()), 2, "--");
     }
+}
+
+#[test]
+fn limits_choose_how_a_fence_is_asked_or_name_the_nearest() {
+    let directory = scratch("trade_curve_limits");
+    let (curve, blob) = (fixture("fence.csv"), directory.join("fence.msw"));
+    let build = ["build", arg(&curve), "-o", arg(&blob)];
+    let rate = ["--rate", "50Hz", "--cpu", "m0:48MHz", "--flash", "2K"];
+    let text = ok([&build[..], &rate, &["--closed"]].concat());
+    assert!(text.contains(", by Curve::signed_distance") && text.contains("of these sides"));
+    let chosen = fs::read(&blob).unwrap();
+    let typed = text.lines().find_map(|line| line.strip_prefix("  built: ")).expect("it says so");
+    ok([&build[..], &typed.split(' ').collect::<Vec<_>>()].concat());
+    assert!(fs::read(&blob).unwrap() == chosen && chosen.len() <= 2048, "{typed}");
+    // A side that is undecided leaves the distance of either sign.
+    let points = directory.join("points.csv");
+    let few = ["--flash", "2K", "--error", "200", "--closed", "--at", arg(&points), "--json"];
+    fs::write(&points, "30,10,0\n-20,60,0\n5,5,0\n70,40,0\n").unwrap();
+    let told: Value = serde_json::from_str(&ok([&build[..], &few].concat())).unwrap();
+    let chosen = &told["chosen"]["first"];
+    let dials: Vec<&str> = chosen["dials"].as_str().unwrap().split(", ").collect();
+    let steps = dials.iter().find_map(|dial| dial.strip_prefix("steps ")).unwrap_or("1000");
+    let signed = ok(["signed", arg(&blob), arg(&points), "--steps", steps]);
+    let header = signed.lines().next().unwrap().to_owned();
+    let at = |name: &str| header.split(',').position(|of| of == name).expect("a column");
+    let [lower, upper] = ["lower", "upper"].map(at);
+    let answers = parse_csv(&signed, &header);
+    let widths = answers.iter().map(|row| number(&row[upper]) - number(&row[lower]));
+    let width = widths.fold(0.0, f64::max);
+    assert!(
+        (worst(chosen, "guaranteed").unwrap() - width).abs() <= 1e-6 * width,
+        "{chosen} {width}"
+    );
+    // Without an area distances are asked, on a path by a search that is kept.
+    let text = ok([&build[..], &["--flash", "2K", "--error", "9", "--at", "path"]].concat());
+    assert!(!text.contains("signed") && text.contains("instructions of a Cortex-M4F"), "{text}");
+    fs::remove_file(&blob).unwrap();
+    let none = run([&build[..], &["--rate", "90MHz", "--cpu", "m4f:168MHz"]].concat());
+    let said = refused(&none, 1, "fence.csv");
+    assert!(said.contains("the nearest is curve") && !blob.exists(), "{said}");
+    refused(&run([&build[..], &["--flash", "2K", "--for", "closest"]].concat()), 2, "--for");
 }
 
 #[test]
@@ -353,8 +450,47 @@ fn structures_of_two_meshes_have_the_verdicts_of_clearance() {
         told += 1;
     }
     assert_eq!(told, 4);
+    // Of the rows within the limits none has fewer alarms, and of as many none fewer instructions.
+    let limited =
+        |limits: &[&str]| run([&pair[..], &["--json", "--cpu", "m4f:168MHz"], limits].concat());
+    let flash = |row: &Value| row["flash"][0].as_u64().unwrap() + row["flash"][1].as_u64().unwrap();
+    for (limit, of) in [(3000, "--flash"), (1 << 30, "--flash"), (900, "--rate")] {
+        let told = limited(&[of, &limit.to_string()]);
+        assert!(told.status.success());
+        let trade: Value = serde_json::from_slice(&told.stdout).expect("it is JSON");
+        let is_met = |row: &Value| match of {
+            "--flash" => flash(row) <= limit,
+            _ => row["microseconds"].as_f64().is_some_and(|time| time * limit as f64 <= 1e6),
+        };
+        let key = |row: &Value| {
+            (row["false_alarms"].as_u64().unwrap(), row["mean"].as_f64().unwrap_or(f64::INFINITY))
+        };
+        let meeting = || rows(&trade).iter().filter(|row| row["missed"] == 0 && is_met(row));
+        let named = |of: &str| meeting().find(|row| row["structure"] == trade["chosen"][of]);
+        let first = named("first").expect("the first meets the limits");
+        assert!(meeting().all(|row| key(first) <= key(row)), "{trade}");
+        let others = || meeting().filter(|row| *row != first);
+        assert_eq!(named("second").is_some(), others().count() > 0);
+        assert!(named("second").is_none_or(|second| others().all(|row| key(second) <= key(row))));
+    }
+    let said = refused(&limited(&["--rate", "100MHz"]), 1, "no structure meets");
+    assert!(said.contains("--rate") && said.contains("cube.obj"), "{said}");
+    // Every structure has a stack, with a cost or without.
+    let told = limited(&["--ram", "8K"]);
+    let trade: Value = serde_json::from_slice(&told.stdout).expect("it is JSON");
+    for row in rows(&trade) {
+        let ram = row["scratch_bytes"].as_u64().unwrap() + row["stack"][0].as_u64().unwrap();
+        assert!(row["stack"][0].as_u64() > Some(1000), "{row}");
+        assert!(trade["chosen"]["first"] != row["structure"] || ram <= 8192, "{row}");
+    }
+    assert!(told.status.success() || trade["unmet"].as_str().is_some_and(|s| s.contains("--ram")));
+    // Where no pose keeps the distance, no structure is better than another.
+    let inside = ["trade", arg(&mesh), arg(&cube), "--poses", "0,0,0,1,0,0,0", "--keep", "9"];
+    refused(&run([&inside[..], &["--flash", "1M"]].concat()), 1, "no pose keeps");
     // The words depend on no mesh.
     let pair = ["trade", arg(&cube), arg(&cube), "--poses", arg(&poses), "--keep", "1.25"];
+    let text = ok([&pair[..], &["--flash", "1M"]].concat());
+    assert_eq!(text.matches("  meshsweep build ").count(), 2, "{text}");
     let text = ok([&pair[..], &["--cpu", "m0:48MHz"]].concat());
     assert!(text.contains("Cortex-M0") && text.contains("triboxes, 8 "), "{text}");
     let has_times = |text: &str| text.lines().any(|line| line.contains(" at most        us "));
@@ -384,6 +520,7 @@ fn a_distance_to_keep_has_the_unit_that_it_names() {
     let alone = run(["trade", arg(&mesh), arg(&mesh), "--keep", "1"]);
     assert_eq!(alone.status.code(), Some(2));
     refused(&run(["trade", arg(&mesh), "--cpu", "m4f:168MHz"]), 2, "--cpu");
+    refused(&run(["trade", arg(&mesh), "--flash", "4K"]), 2, "build takes them");
 }
 
 /// Distance of a point from the segments of closed polylines, in `D` dimensions.

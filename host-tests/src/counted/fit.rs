@@ -119,6 +119,7 @@ fn built(subject: &Subject, search: Search) -> Option<Vec<u8>> {
         Search::Sweep | Search::KeptSweep | Search::FirstHitOfHull => {
             Recipe::Sweep(VertexBits::F32)
         }
+        Search::OuterHit => Recipe::Hull(VertexBits::F32),
         Search::Tight => Recipe::Tight(200),
         Search::Triboxes | Search::PairOfTriboxes => Recipe::Triboxes(64),
         Search::Field
@@ -158,7 +159,7 @@ fn asked(subject: &Subject, search: Search) -> Vec<Asked> {
 /// Points, or the ends of segments.
 fn places(subject: &Subject, search: Search, kind: Points) -> Vec<[f32; 3]> {
     match search {
-        Search::FirstHit | Search::FirstHitF32 | Search::FirstHitOfHull => {
+        Search::FirstHit | Search::FirstHitF32 | Search::FirstHitOfHull | Search::OuterHit => {
             trade::segments(&subject.mesh, kind, QUERIES)
         }
         _ => points(subject, kind, QUERIES),
@@ -245,6 +246,8 @@ fn questions(search: Search, diagonal: f64) -> Vec<(Points, Budget)> {
         Search::FirstHitOfHull => {
             vec![(Far, exact), (Near, exact), (Path, exact), (Far, steps(32))]
         }
+        // The others start in the hull's box.
+        Search::OuterHit => vec![(Far, exact)],
         // Questions about two models are listed apart, and so are those about curves.
         Search::PairOfTrees
         | Search::PairOfTriboxes
@@ -269,6 +272,7 @@ fn question(search: Search, budget: Budget) -> Question {
         Search::Tight => Question::Tight(budget),
         Search::FirstHit | Search::FirstHitF32 => Question::FirstHit(budget),
         Search::FirstHitOfHull => Question::FirstHitOfHull(budget),
+        Search::OuterHit => Question::OuterHit,
         Search::Field | Search::FieldTree => Question::Field,
         Search::Curve => Question::Curve(budget),
         Search::KeptCurve => Question::KeptCurve(budget),
@@ -297,7 +301,7 @@ fn rows(laid: &[u8], blob: &[u8], search: Search, budget: Budget) -> Result<Stri
     let said = |error: QueryError| error.to_string();
     let blob = Blob::open(blob).map_err(|error| error.to_string())?;
     let shape = match search {
-        Search::Sweep | Search::KeptSweep | Search::FirstHitOfHull => {
+        Search::Sweep | Search::KeptSweep | Search::FirstHitOfHull | Search::OuterHit => {
             Shape::of_hull(&blob.hull().map_err(said)?)
         }
         Search::Tight => {
@@ -320,6 +324,7 @@ fn rows(laid: &[u8], blob: &[u8], search: Search, budget: Budget) -> Result<Stri
             Answer::Within(found) => found.work,
             Answer::Farther(found) => found.work,
             Answer::Hit(hit) => hit.work,
+            Answer::Outer(outer) => outer.work,
             Answer::Curve(near) => near.work,
             Answer::OfCurve(found) => found.work,
             Answer::Fence(found) => found.closest.work,

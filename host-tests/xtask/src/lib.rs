@@ -56,6 +56,7 @@ pub mod question;
 #[path = "../../suite/src/questions.rs"]
 pub mod questions;
 pub mod reading;
+pub mod release;
 pub mod report;
 pub mod rival;
 pub mod stack;

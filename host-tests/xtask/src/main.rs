@@ -16,7 +16,7 @@ use meshsweep_xtask::tools::{Tools, setup};
 use meshsweep_xtask::valgrind::Valgrind;
 use meshsweep_xtask::{
     c_checks, checks, count, count_suite, dist, examples, firmware, fit, fuzz, host, processors,
-    python, question, report, rival, say, tables, web,
+    python, question, release, report, rival, say, tables, web,
 };
 
 const USAGE: &str = "\
@@ -46,6 +46,8 @@ cargo xtask fit [MESH...]           fits the costs by which `meshsweep trade` pr
 cargo xtask fit --kept              the same from the counts of the last run
 cargo xtask report [MESH...]        tests the page of `meshsweep trade --report` in Chromium
 cargo xtask web                     the page of WebAssembly: target/dist/web/index.html, in Chromium
+cargo xtask release [--write]       before publishing: the oldest Rust, docs.rs, a dry run, and the
+                                    public interface beside its list; or writes the lists anew
 cargo xtask measure|race|rival ...  the laboratory, a crate of its own: `cargo xtask measure --help`
 
 environment:
@@ -180,6 +182,8 @@ fn main() -> ExitCode {
                 fit::run(&mut steps, &tools, others);
             }
         }
+        ["release"] => release::run(&mut steps, false),
+        ["release", "--write"] => release::run(&mut steps, true),
         ["web"] => web::run(&mut steps),
         ["report", meshes @ ..] => report::run(&mut steps, meshes),
         ["count", questions @ ..] if !questions.iter().any(|word| word.starts_with("--")) => {

@@ -60,9 +60,6 @@ pub fn run(args: &BuildArgs) -> Result<(), Failure> {
 fn refuse_options(args: &BuildArgs) -> Option<String> {
     match args.limits.given() {
         Some(option) => {
-            if args.is_curve() {
-                return Some(format!("{option} is a limit of meshes; leave it out"));
-            }
             let other = match args.chosen_option()? {
                 "--for" => "--for, or give it one of closest and segment",
                 other => other,
@@ -139,7 +136,7 @@ impl Report<'_> {
 
     fn as_json(&self) -> Value {
         let &Self { args, mesh, built, blob, chosen } = self;
-        let loaded = built.loaded.as_ref().or(chosen.map(|chosen| &chosen.loaded));
+        let loaded = built.loaded.as_ref().or(chosen.and_then(|chosen| chosen.loaded.as_ref()));
         let mut fields = match loaded {
             Some(loaded) => mesh_report::fields(mesh, loaded),
             None => Map::from_iter([("curves".to_owned(), json!(mesh.display().to_string()))]),

@@ -19,9 +19,9 @@ pub fn run(args: &TradeArgs) -> Result<(), Failure> {
     if let (Some(other), Some(keep)) = (&args.other, args.keep) {
         return pair::run(args, other, keep);
     }
-    if args.cpu.is_some() {
-        let what = "--cpu: times are of two meshes; the table of one has instructions, and build \
-                    --rate with --cpu chooses a setting for it";
+    if args.limits.is_any() {
+        let what = "--flash, --ram, --rate and --cpu are of two meshes here; build takes them for \
+                    one, and chooses its setting";
         return Err(Failure::Usage { what: what.to_owned() });
     }
     if args.is_curve() {

@@ -5,7 +5,7 @@ use meshsweep_core::{
     Budget, DistanceBounds, FirstHit, QueryError, ScratchEntry, Side, SignedBounds, Solid,
 };
 
-use super::{Asked, Refused, Subject, tree, verdict};
+use super::{Asked, Refused, Subject, sdf, tree, verdict};
 use crate::fold::Fold;
 use crate::kind::Kind;
 use crate::observer::Observer;
@@ -58,6 +58,11 @@ impl<'t> Subject<'t> for BvhWithSdf<'t> {
             let motion = [[start, place.near(start)], [end, place.near(end)]];
             contact(self, motion, 0.25 * place.distance(), scratch, to);
         };
+        // Of the field alone, which here is a tree.
+        FieldDistance => sdf::distance(self.field(), sdf::within(self.field(), place.far()), to);
+        FieldUnits => sdf::in_units_of(self.field(), place, to);
+        FieldGradient => sdf::gradient(self.field(), sdf::within(self.field(), place.far()), to);
+        FieldBeyond => sdf::beyond(self.field(), place, to);
     }
 }
 

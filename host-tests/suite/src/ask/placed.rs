@@ -8,8 +8,8 @@ use core::mem::size_of;
 use meshsweep_core::{
     Blob, Budget, Bvh, BvhWithSdf, ClosestPoint, CoherentQuery, Curve, CurveClosest, CurveSegment,
     CurveSignedDistance, Decided, DistanceBounds, Facing, FieldDistance, FirstHit, Focus, Hint,
-    Hull, Pose, QueryError, RefinedHull, Refinement, ScratchEntry, Separation, SplitChange,
-    TriboxBound, UnitDistance,
+    Hit, Hull, OuterHits, OuterSearch, Pose, QueryError, RefinedHull, Refinement, ScratchEntry,
+    Separation, SplitChange, TriboxBound, UnitDistance,
 };
 
 use super::{Refused, timed};
@@ -66,6 +66,9 @@ pub enum Question {
     CurveWithin(f32, u32),
     /// The signed distance of a fence. The z of a place is not asked.
     CurveSigned(Budget),
+    /// The first hit from outside on the refined hull, each from the base hull. Two places are a
+    /// segment.
+    OuterHit,
 }
 
 impl Question {
@@ -97,6 +100,7 @@ impl Question {
             Self::KeptCurve(budget) => of(20, budget),
             Self::CurveWithin(distance, steps) => [21, distance.to_bits(), 0, steps],
             Self::CurveSigned(budget) => of(22, budget),
+            Self::OuterHit => [23, 0, 0, 0],
         }
     }
 
@@ -105,7 +109,7 @@ impl Question {
     pub const fn places(self) -> usize {
         match self {
             Self::PairOfTrees(_) | Self::PairOfTriboxes(_) => 4,
-            Self::FirstHit(_) | Self::FirstHitOfHull(_) => 2,
+            Self::FirstHit(_) | Self::FirstHitOfHull(_) | Self::OuterHit => 2,
             _ => 1,
         }
     }
@@ -137,6 +141,7 @@ impl Question {
             20 => Self::KeptCurve(budget),
             21 => Self::CurveWithin(first, steps),
             22 => Self::CurveSigned(budget),
+            23 => Self::OuterHit,
             _ => return None,
         })
     }
@@ -196,6 +201,9 @@ const ENTRIES: usize = 512;
 /// Splits of the refined hull: 8 KiB.
 const SPLITS: usize = 500;
 
+/// Entries of scratch beside the refined hull. With fewer it answers too, more slowly.
+const BESIDE: usize = 64;
+
 /// Entries of a coherent query's front.
 const FRONT: usize = 128;
 
@@ -242,6 +250,8 @@ pub enum Answer {
     Farther(Separation),
     /// A first hit.
     Hit(FirstHit),
+    /// A first hit from outside.
+    Outer(OuterHits),
     /// The distance of a field.
     Field(FieldDistance),
     /// The same in whole units.
@@ -278,6 +288,12 @@ impl Answer {
                 super::how(fold, answer.ended);
             }
             Self::Hit(hit) => super::segment_hit(fold, hit),
+            Self::Outer(outer) => {
+                fold.f32(outer.t.lower);
+                fold.f32(outer.t.upper);
+                fold.word(u32::from(outer.starts_inside));
+                super::how(fold, outer.ended);
+            }
             Self::Field(found) => super::sdf::field_distance(fold, found),
             Self::Units(found) => super::sdf::unit_distance(fold, *found),
             Self::Decided(answer) => super::verdict(fold, answer.verdict),
@@ -383,6 +399,7 @@ pub fn ask<'t>(
             let entries = hull.scratch_entries();
             by_entries(&mut memory.entries, entries, asking.at(segments), ask, Answer::Hit)
         }
+        Question::OuterHit => outer_hits(&hull(&blob)?, memory, asking.at(segments)),
         Question::Field => {
             let field = blob.sdf().map_err(|_| Refused::NO_SECTION)?;
             asking.each(|place| field.distance(place), Answer::Field);
@@ -556,6 +573,23 @@ fn refine<'t>(
     let ask = |centre| refined.update(hull, &Focus::Ball { centre, radius }, error, changes);
     asking.each(ask, Answer::Refined);
     Ok(size_of::<RefinedHull<'_, SPLITS>>())
+}
+
+#[inline(never)]
+fn outer_hits<'t>(
+    hull: &Hull<'t>,
+    memory: &mut Memory<'t>,
+    asking: Asking<'_, impl Iterator<Item = [[f32; 3]; 2]>, impl Observer, impl FnMut(&Answer)>,
+) -> Result<usize, Refused> {
+    let Memory { entries, refined, .. } = memory;
+    let scratch = entries.get_mut(..BESIDE).ok_or(Refused::MEMORY)?;
+    let mut hits = [Hit::EMPTY; 1];
+    let ask = |[a, b]: [_; 2]| {
+        refined.reset();
+        hull.outer_hits(a, b, OuterSearch::First, refined, &mut hits, Budget::EXACT, scratch)
+    };
+    asking.each(ask, Answer::Outer);
+    Ok(size_of::<RefinedHull<'_, SPLITS>>() + bytes(BESIDE))
 }
 
 fn place(bytes: &[u8; 12]) -> [f32; 3] {

@@ -40,20 +40,11 @@ impl<'t> Subject<'t> for Sdf<'t> {
         };
         Contents => contents(self, to.fold);
         FieldDistance => distance(self, within(self, place.far()), to);
-        FieldUnits => {
-            // The conversion is no part of the question.
-            if let Ok(whole) = self.units_of(within(self, place.far())) {
-                in_units(self, whole, to);
-            }
-        };
+        FieldUnits => in_units_of(self, place, to);
         FieldGradient => gradient(self, within(self, place.far()), to);
         Signed => distance(self, place.far(), to);
         Within => is_within(self, place.far(), place.distance(), to);
-        FieldBeyond => {
-            let mut word = || place.word().cast_signed() >> 10;
-            let beyond = core::array::from_fn(|_| word());
-            in_units(self, beyond, to);
-        };
+        FieldBeyond => beyond(self, place, to);
     }
 }
 
@@ -82,8 +73,25 @@ pub fn contents(field: &Sdf<'_>, fold: &mut Fold) {
     fold.point(greatest);
 }
 
+/// In whole units at a point of the box. The conversion is no part of the question.
+pub(super) fn in_units_of(
+    field: &Sdf<'_>,
+    place: &mut impl Place,
+    to: &mut Asked<'_, impl Observer>,
+) {
+    if let Ok(whole) = field.units_of(within(field, place.far())) {
+        in_units(field, whole, to);
+    }
+}
+
+/// In whole units far from the box.
+pub(super) fn beyond(field: &Sdf<'_>, place: &mut impl Place, to: &mut Asked<'_, impl Observer>) {
+    let mut word = || place.word().cast_signed() >> 10;
+    in_units(field, core::array::from_fn(|_| word()), to);
+}
+
 /// A point of the doubled box, drawn into the box.
-fn within(field: &Sdf<'_>, [x, y, z]: Point) -> Point {
+pub(super) fn within(field: &Sdf<'_>, [x, y, z]: Point) -> Point {
     let [[a, b, c], [d, e, f]] = field.bounds();
     let drawn = |x: f32, a: f32, b: f32| 0.5 * (x + 0.5 * (a + b));
     [drawn(x, a, d), drawn(y, b, e), drawn(z, c, f)]

@@ -235,7 +235,7 @@ impl BuildArgs {
     /// The first given option that names what limits choose.
     pub fn chosen_option(&self) -> Option<&'static str> {
         let others = [
-            ("--for", self.measured().is_none()),
+            ("--for", self.measured().is_none() && !self.is_curve()),
             ("--vertex-bits", self.vertex_bits != StoredBits::Auto),
             ("key frames", !self.frames.is_empty()),
         ];

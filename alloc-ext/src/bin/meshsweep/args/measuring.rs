@@ -29,10 +29,8 @@ pub struct TradeArgs {
     /// Distance that the second mesh is to keep: 2.5 in the meshes' unit, or 20mm
     #[arg(long, value_name = "DISTANCE", requires = "other", value_parser = length_in_unit)]
     pub keep: Option<(f64, Option<Unit>)>,
-    /// Of two meshes: processor and its clock, as of build: m4f:168MHz [default: a Cortex-M4F,
-    /// without times]
-    #[arg(long, value_name = "CPU:CLOCK", value_parser = cpu)]
-    pub cpu: Option<Cpu>,
+    #[command(flatten)]
+    pub limits: PairLimitArgs,
     /// Question: closest, the closest point; or segment, the first hit of a segment
     #[arg(
         long = "for",
@@ -65,6 +63,48 @@ pub struct TradeArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+/// Limits that choose a structure of two meshes.
+#[derive(Debug, Args)]
+pub struct PairLimitArgs {
+    /// Of two meshes: most bytes of both blobs: 16K is 16,384
+    #[arg(long, value_name = "BYTES", value_parser = bytes, help_heading = "Limits")]
+    pub flash: Option<usize>,
+    /// Of two meshes: most bytes of RAM: scratch, and the processor's stack
+    #[arg(long, value_name = "BYTES", value_parser = bytes, help_heading = "Limits")]
+    pub ram: Option<usize>,
+    /// Of two meshes: queries a second: 500, 1kHz
+    #[arg(
+        long,
+        value_name = "RATE",
+        value_parser = hertz,
+        requires = "cpu",
+        help_heading = "Limits"
+    )]
+    pub rate: Option<f64>,
+    /// Of two meshes: processor and its clock, as of build: m4f:168MHz [default: a Cortex-M4F,
+    /// without times]
+    #[arg(long, value_name = "CPU:CLOCK", value_parser = cpu, help_heading = "Limits")]
+    pub cpu: Option<Cpu>,
+}
+
+impl PairLimitArgs {
+    /// As the library takes them.
+    pub fn limits(&self) -> Limits {
+        let Self { flash, ram, rate, cpu } = *self;
+        Limits { flash, ram, rate, cpu, error: None }
+    }
+
+    /// Whether there is a limit.
+    pub fn is_given(&self) -> bool {
+        self.flash.is_some() || self.ram.is_some() || self.rate.is_some()
+    }
+
+    /// Whether there is a limit or a processor.
+    pub fn is_any(&self) -> bool {
+        self.is_given() || self.cpu.is_some()
+    }
 }
 
 /// Questions that are measured.

@@ -3,7 +3,7 @@
 
 use super::measured::{rows_of, said, say_nothing};
 use super::table::{self, Shown};
-use crate::args::{At, TradeArgs};
+use crate::args::{At, ReadArgs, TradeArgs};
 use crate::failure::Failure;
 use crate::mesh_file;
 use crate::output::Output;
@@ -19,6 +19,7 @@ use meshsweep::worst::{Goal, Question as Asked, Subject, Worst};
 use meshsweep_core::{Blob, Curve};
 use serde_json::{Value, json};
 use std::io::{self, Write};
+use std::path::Path;
 use std::sync::Mutex;
 
 /// Columns of the search, after those of every table.
@@ -27,25 +28,41 @@ const COLUMNS: [(&str, usize); 3] = [("work", 8), ("worst", 8), ("M4F worst", 9)
 /// Random starts of a search.
 const STARTS: usize = 8;
 
-pub fn run(args: &TradeArgs) -> Result<(), Failure> {
-    mesh_file::check_format(&[&args.mesh], &args.read)?;
-    let file = mesh_file::named(&args.mesh, &args.read)?;
-    if args.report.is_some() || args.read.unit.is_some() || args.asks_segments() {
-        let what = "--report, --unit and --for segment are for meshes; leave them out";
-        return Err(Failure::Usage { what: what.to_owned() });
-    }
-    args.threads.start();
-    let bytes = match mesh_file::stdin_bytes(&args.mesh)? {
+/// A measurement of curves, and what it is of.
+pub struct OfCurves {
+    pub trade: Trade,
+    /// Number of points.
+    pub points: usize,
+    /// Their kind, in words.
+    pub kind: String,
+    /// Whether the curves bound an area.
+    pub is_fence: bool,
+    polylines: usize,
+    segments: u32,
+    /// Of the curves' box.
+    diagonal: f64,
+}
+
+/// Measures the standard settings.
+pub fn measured(
+    named: &Path,
+    args: &ReadArgs,
+    closed: bool,
+    at: &At,
+    count: usize,
+) -> Result<OfCurves, Failure> {
+    let file = mesh_file::named(named, args)?;
+    let bytes = match mesh_file::stdin_bytes(named)? {
         Some(bytes) => bytes,
         None => std::fs::read(&file).map_err(|error| Failure::read(&file, &error))?,
     };
     let failed = |error| Failure::build(&file, error);
-    let polylines = read_csv(&bytes, args.closed)
+    let polylines = read_csv(&bytes, closed)
         .map_err(|error| failed(BuildError::Curve { file: file.clone(), error }))?;
     let diagonal = trade::diagonal_of_curves(&polylines);
-    let (points, kind, words) = match &args.at {
+    let (points, made, kind) = match at {
         At::Made(kind) => {
-            let points = trade::points_of_curves(&polylines, *kind, args.points as usize);
+            let points = trade::points_of_curves(&polylines, *kind, count);
             (points, Some(*kind), said(*kind, "curve"))
         }
         At::File(path) => (rows_of::<3>(path)?, None, format!("of {}", path.display())),
@@ -64,7 +81,7 @@ pub fn run(args: &TradeArgs) -> Result<(), Failure> {
         Ok(curve) => (curve.segment_count(), curve.check_fence().is_ok()),
         Err(error) => return Err(Failure::Search { file, error }),
     };
-    let settings = trade::standard_of_curves(diagonal, is_fence, kind);
+    let settings = trade::standard_of_curves(diagonal, is_fence, made);
     let bar = Mutex::new(None);
     let progress = |done, of| {
         if let Ok(mut bar) = bar.lock() {
@@ -72,27 +89,40 @@ pub fn run(args: &TradeArgs) -> Result<(), Failure> {
         }
     };
     let trade = trade::measure_curves(&polylines, &points, &settings, &progress)
-        .map_err(|error| Failure::Search { file: file.clone(), error })?;
-    let worst: Vec<Option<Worst>> = trade.rows.iter().map(|row| worst(row, &trade)).collect();
+        .map_err(|error| Failure::Search { file, error })?;
     drop(bar);
-    let (diagonal, polylines) = (AtMost(diagonal), polylines.len());
+    let (points, polylines) = (points.len(), polylines.len());
+    Ok(OfCurves { trade, points, kind, is_fence, polylines, segments, diagonal })
+}
+
+pub fn run(args: &TradeArgs) -> Result<(), Failure> {
+    mesh_file::check_format(&[&args.mesh], &args.read)?;
+    if args.report.is_some() || args.read.unit.is_some() || args.asks_segments() {
+        let what = "--report, --unit and --for segment are for meshes; leave them out";
+        return Err(Failure::Usage { what: what.to_owned() });
+    }
+    args.threads.start();
+    let count = args.points as usize;
+    let measured = measured(&args.mesh, &args.read, args.closed, &args.at, count)?;
+    let OfCurves { trade, points, kind, polylines, segments, diagonal, .. } = &measured;
+    let worst: Vec<Option<Worst>> = trade.rows.iter().map(|row| worst(row, trade)).collect();
     let head = format!(
-        "{}: {} of {}, diagonal {diagonal}; {} {words}",
-        file.display(),
-        Counted(segments, "segment"),
-        Counted(polylines, "polyline"),
-        Counted(points.len(), "point"),
+        "{}: {} of {}, diagonal {}; {} {kind}",
+        mesh_file::named(&args.mesh, &args.read)?.display(),
+        Counted(*segments, "segment"),
+        Counted(*polylines, "polyline"),
+        AtMost(*diagonal),
+        Counted(*points, "point"),
     );
     Output::stdout().finish(|out| {
         if args.json {
-            let all = as_json(&trade, &worst);
-            let json =
-                json!({ "points": points.len(), "kind": words, "segments": segments, "rows": all });
+            let all = as_json(trade, &worst);
+            let json = json!({ "points": points, "kind": kind, "segments": segments, "rows": all });
             serde_json::to_writer_pretty(&mut *out, &json)?;
             return writeln!(out);
         }
         writeln!(out, "{head}")?;
-        write(out, &trade, &worst)
+        write(out, trade, &worst)
     })
 }
 

@@ -11,11 +11,11 @@ use meshsweep::counted::Counted;
 use meshsweep::mesh::Unit;
 use meshsweep::number::About;
 use meshsweep::trade::{
-    Board, CYCLES, Instructions, Limits, NotBuilt, PairError, PairRow, PairTrade, measure_pair,
+    CYCLES, Instructions, NotBuilt, PairError, PairRow, PairTrade, measure_pair,
 };
 use serde_json::{Value, json};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 /// Headings of the columns after the structure, each with its width.
@@ -98,37 +98,91 @@ pub fn run(
     })?;
     drop(bar);
     let measured = Measured { args, other, keep, unit, poses: all.len(), trade };
+    let chosen = args.limits.is_given().then(|| args.limits.limits().choose_pair(&measured.trade));
+    // The table tells what can be had, whether the limits are met or not.
+    let (chosen, unmet) = match chosen.transpose() {
+        Ok(chosen) => (chosen, None),
+        Err(unmet) => (None, Some(unmet.to_string())),
+    };
     Output::stdout().finish(|out| {
         if args.json {
-            serde_json::to_writer_pretty(&mut *out, &measured.as_json())?;
+            let mut json = measured.as_json(chosen);
+            json["unmet"] = json!(unmet);
+            serde_json::to_writer_pretty(&mut *out, &json)?;
             return writeln!(out);
         }
-        measured.write(out)
-    })
+        measured.write(out)?;
+        chosen.map_or(Ok(()), |chosen| measured.write_chosen(out, chosen))
+    })?;
+    let both = || PathBuf::from(format!("{} and {}", files[0].display(), files[1].display()));
+    unmet.map_or(Ok(()), |what| Err(Failure::Limits { file: both(), what }))
+}
+
+/// A name as a shell takes it.
+fn quoted(file: &Path) -> String {
+    let name = file.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./".contains(c);
+    if name.chars().all(is_plain) { name } else { format!("'{}'", name.replace('\'', "'\\''")) }
 }
 
 impl Measured<'_> {
-    fn limits(&self) -> Limits {
-        Limits { cpu: self.args.cpu, ..Limits::default() }
-    }
-
     /// Predicted instructions of a row: mean and most; and the microseconds of the most.
     fn cost(&self, row: &PairRow) -> [Option<f64>; 3] {
         let found = self.found(row);
         let most = found.map(|found| found.at_most());
-        let time = most.zip(self.args.cpu).map(|(most, cpu)| 1e6 * most * CYCLES / cpu.hertz);
+        let time =
+            most.zip(self.args.limits.cpu).map(|(most, cpu)| 1e6 * most * CYCLES / cpu.hertz);
         [found.map(|found| found.mean), most, time]
     }
 
     /// Whether a column is printed: without a clock there are no times.
     fn shows(&self, column: &str) -> bool {
-        column != "us" || self.args.cpu.is_some()
+        column != "us" || self.args.limits.cpu.is_some()
     }
 
     /// Instructions on the processor that is asked about.
     fn found(&self, row: &PairRow) -> Option<Instructions> {
-        let board = self.limits().board();
-        Board::ALL.iter().zip(row.boards).find(|(of, _)| **of == board)?.1
+        self.args.limits.limits().instructions(row.boards)
+    }
+
+    /// The structure that meets the limits, how it is built, and what it costs.
+    fn write_chosen(
+        &self,
+        out: &mut dyn Write,
+        (first, second): (&PairRow, Option<&PairRow>),
+    ) -> io::Result<()> {
+        let limits = self.args.limits.limits();
+        let costs = |row: &PairRow| {
+            let [flash, ram] =
+                [row.flash.iter().sum(), limits.ram(row.scratch, row.stack) as usize];
+            let most = self.found(row).map(|found| found.at_most());
+            let most = most.map(|most| format!(", at most {most:.0} instructions"));
+            let PairRow { false_alarms, undecided, .. } = row;
+            format!(
+                "flash {flash}, RAM {ram}, alarms {false_alarms}, undecided {undecided}{}",
+                most.unwrap_or_default()
+            )
+        };
+        writeln!(
+            out,
+            "\nchosen: {}: fewest alarms, then fewest instructions, of those within the limits",
+            first.structure.name()
+        )?;
+        writeln!(out, "  {}", costs(first))?;
+        let unit = self.args.read.unit.map(|unit| format!(" --unit {}", unit.symbol()));
+        let unit = unit.unwrap_or_default();
+        for (mesh, blob) in [(&*self.args.mesh, "first"), (self.other, "second")] {
+            let format = self.args.read.format.filter(|_| mesh == Path::new("-"));
+            let format = format.map_or_else(String::new, |format| format!(" --format {format}"));
+            let (mesh, structure) = (quoted(mesh), first.structure);
+            writeln!(out, "  meshsweep build {mesh}{format}{unit} -o {blob}.msw {structure}")?;
+        }
+        match second {
+            Some(second) => {
+                writeln!(out, "second: {}: {}", second.structure.name(), costs(second))
+            }
+            None => writeln!(out, "second: nothing else meets them"),
+        }
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -170,14 +224,15 @@ impl Measured<'_> {
         writeln!(
             out,
             "\nmean, at most: instructions of a {}, predicted; at most is of the costliest pose, \
-             times the\nfit's greatest ratio.{} clear: poses proved to keep the distance. alarms: \
-             poses that keep it and\nare not proved to. undecided: neither clear nor proved \
-             nearer. missed: poses that are clear of the\nhull's surface and not of the mesh. flash: \
-             bytes of the blobs. scratch: bytes.\n\
+             times the\nfit's greatest ratio. clear: poses proved to keep the distance. alarms: \
+             poses that keep it and are\nnot proved to. undecided: neither clear nor proved nearer. missed: \
+             poses that are clear of the hull's\nsurface and not of the mesh. flash: bytes of the \
+             blobs. scratch: bytes.{}\n\
              error of a predicted mean, over the meshes that it was fitted to and tested with",
-            self.limits().board().name(),
-            match self.args.cpu {
-                Some(_) => format!(" us: microseconds of it, {CYCLES} cycles an instruction."),
+            self.args.limits.limits().board().name(),
+            match self.args.limits.cpu {
+                Some(_) =>
+                    format!("\nus: microseconds of at most, {CYCLES} cycles an instruction."),
                 None => String::new(),
             },
         )?;
@@ -196,14 +251,17 @@ impl Measured<'_> {
         Ok(())
     }
 
-    fn as_json(&self) -> Value {
+    fn as_json(&self, chosen: Option<(&PairRow, Option<&PairRow>)>) -> Value {
         let Self { keep, unit, poses, trade, .. } = self;
+        let name = |row: &PairRow| row.structure.name();
+        let chosen = chosen
+            .map(|(first, second)| json!({ "first": name(first), "second": second.map(name) }));
         let of = |row: &PairRow| {
             let [mean, most, microseconds] = self.cost(row);
             json!({
                 "structure": row.structure.name(),
                 "build": row.structure.to_string(),
-                "instructions": of_boards(row.boards),
+                "instructions": of_boards(row.boards, row.stack),
                 "mean": mean,
                 "at_most": most,
                 "microseconds": microseconds,
@@ -213,6 +271,7 @@ impl Measured<'_> {
                 "missed": row.missed,
                 "flash": row.flash,
                 "scratch_bytes": row.scratch,
+                "stack": row.stack,
             })
         };
         let missing = trade.missing.iter().map(|(structure, reason)| {
@@ -223,9 +282,10 @@ impl Measured<'_> {
             "clear": trade.clear,
             "keep": keep,
             "unit": unit.map(Unit::symbol),
-            "cpu": self.limits().board().name(),
+            "cpu": self.args.limits.limits().board().name(),
             "rows": trade.rows.iter().map(of).collect::<Vec<_>>(),
             "not_built": missing.collect::<Vec<_>>(),
+            "chosen": chosen,
         })
     }
 }

@@ -154,7 +154,7 @@ pub(super) fn cells(row: &Row, shown: Shown) -> Vec<String> {
         count(m0.map(|board| board.mean)),
         row.flash.to_string(),
         row.scratch.to_string(),
-        m4f.map_or("-".to_owned(), |board| board.stack.to_string()),
+        row.stack[0].to_string(),
         count(Some(row.nanoseconds)),
     ];
     if shown == Shown::Undecided {
@@ -304,7 +304,7 @@ pub fn of_row(row: &Row) -> Value {
         "found_lower": (!is_verdict(row)).then(|| spread(row.found_lower)),
         "found_upper": row.found_upper.map(spread),
         "undecided": (row.setting.question != Question::ClosestPoint).then_some(row.undecided),
-        "instructions": of_boards(row.boards),
+        "instructions": of_boards(row.boards, row.stack),
         "flash": row.flash,
         "scratch_bytes": row.scratch,
         "host_ns": row.nanoseconds,
@@ -314,8 +314,9 @@ pub fn of_row(row: &Row) -> Value {
 }
 
 /// Instructions of the boards, in the order of [`Board::ALL`].
-pub(super) fn of_boards(boards: [Option<Instructions>; 2]) -> Value {
-    let boards = Board::ALL.iter().zip(boards).filter_map(|(board, found)| {
+pub(super) fn of_boards(boards: [Option<Instructions>; 2], stack: [u32; 2]) -> Value {
+    let all = Board::ALL.iter().zip(boards).zip(stack);
+    let boards = all.filter_map(|((board, found), stack)| {
         let found = found?;
         Some(json!({
             "cpu": board.name(),
@@ -324,7 +325,7 @@ pub(super) fn of_boards(boards: [Option<Instructions>; 2]) -> Value {
             "at_most": found.at_most(),
             "error": found.error,
             "typical": found.typical,
-            "stack": found.stack,
+            "stack": stack,
         }))
     });
     Value::Array(boards.collect())
