@@ -109,8 +109,17 @@ impl<'a> Builder<'a> {
         void_percent: f64 => options.void_percent,
         /// Distance that tight hulls keep from the mesh, in its unit. Default: 0.
         margin: f64 => options.margin,
-        /// Most bytes of a distance field: [`SDF_BYTES`] unless told otherwise.
+        /// Most bytes of a distance field: [`SDF_BYTES`] unless told otherwise; with an
+        /// [error](Self::sdf_error) the most of [the range](ranges::SDF_BYTES).
         sdf_bytes: u32 => options.sdf_bytes,
+        /// The largest width of an interval in a distance field, in the mesh's unit. The field is
+        /// the one of the fewest bytes found that is proved to be as narrow everywhere, with what
+        /// rounding to f32 adds. Refused if none of at most
+        /// [`sdf_bytes`](Self::sdf_bytes) is. Default: as narrow as the bytes allow.
+        sdf_error: f64 => options.sdf_error,
+        /// Part of the distance by which intervals may be wider than the
+        /// [error](Self::sdf_error). Default: 0. Refused without an error.
+        sdf_relative: f64 => options.sdf_relative,
         /// What the distances of a field mean. Default: signed if the mesh is closed and has
         /// sides, else [`SdfKind::Surface`].
         sdf_kind: SdfKind => options.sdf_kind,

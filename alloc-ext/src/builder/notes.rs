@@ -82,7 +82,7 @@ pub(super) fn of_blob(
         tight.extend(no_void_note(&first.void));
         reports.iter().for_each(|report| tight.extend(of_tight(report)));
     }
-    let sdf = built.sdf.as_ref().map_or_else(Vec::new, of_sdf);
+    let sdf = built.sdf.as_ref().map_or_else(Vec::new, |report| of_sdf(options, report));
     let triboxes = built.triboxes.as_ref();
     let gains = triboxes.map_or_else(Vec::new, |report| of_gains(options, report, loaded));
     let triboxes = triboxes.and_then(|report| of_triboxes(options, report));
@@ -158,7 +158,7 @@ fn sideless(report: SidesReport) -> String {
 }
 
 /// What the field's distances mean if the mesh decided it, how wide it is, and what its proof did.
-fn of_sdf(report: &SdfReport) -> Vec<String> {
+fn of_sdf(options: &Options, report: &SdfReport) -> Vec<String> {
     let mut texts = Vec::new();
     if report.lacks_sides {
         let why = "the mesh is not closed, or walls of it were merged";
@@ -171,6 +171,14 @@ fn of_sdf(report: &SdfReport) -> Vec<String> {
         About(report.mean_width),
         About(report.largest_width)
     ));
+    let anywhere = format!("no interval in the field is wider than {}", AtMost(report.widest));
+    texts.push(match (options.sdf_error, options.sdf_relative) {
+        (None, _) => anywhere,
+        (Some(error), None) => format!("{anywhere}: --sdf-error {error} allows no more"),
+        (Some(error), Some(part)) => format!(
+            "{anywhere}, or than {error} and {part} times the distance: the fewest bytes found"
+        ),
+    });
     let of_tree = report.layout == SdfLayout::Tree;
     if let Some(width) = report.other_width {
         let [kept, other] = if of_tree { ["tree", "lattice"] } else { ["lattice", "tree"] };

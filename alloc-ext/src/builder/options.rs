@@ -116,6 +116,8 @@ pub(super) struct Options {
     pub tight_for: Option<[bool; 2]>,
     pub is_closed: bool,
     pub sdf_bytes: Option<u32>,
+    pub sdf_error: Option<f64>,
+    pub sdf_relative: Option<f64>,
     pub sdf_kind: Option<SdfKind>,
     pub sdf_layout: Option<SdfLayout>,
     pub sdf_margin: Option<f64>,
@@ -252,8 +254,12 @@ impl Options {
     }
 
     pub fn of_sdf(&self) -> SdfOptions {
+        let [_, most] = ranges::SDF_BYTES;
+        let bytes = if self.sdf_error.is_some() { most } else { SDF_BYTES };
         SdfOptions::default()
-            .with_bytes(self.sdf_bytes.unwrap_or(SDF_BYTES))
+            .with_bytes(self.sdf_bytes.unwrap_or(bytes))
+            .with_error(self.sdf_error)
+            .with_relative(self.sdf_relative.unwrap_or(0.0))
             .with_kind(self.sdf_kind)
             .with_layout(self.sdf_layout)
             .with_margin(self.sdf_margin)
@@ -267,7 +273,7 @@ impl Options {
 
     /// All options, one row each: name, what it applies to, value, range. The range of slack, void
     /// and margin is in [`Goal::check`].
-    fn rows(&self) -> [OptionRow; 24] {
+    fn rows(&self) -> [OptionRow; 26] {
         let bits = Some(self.vertex_bits).filter(|&bits| bits != VertexBits::Auto);
         let collapse = &self.collapse;
         let [closest, segment] = self.tight_for.unwrap_or_default();
@@ -313,6 +319,8 @@ impl Options {
             OptionRow::words("--tight-for", Of::Tight, asked.into_iter().flatten()),
             OptionRow::numbers("--effort", Of::Tight, self.effort, ranges::EFFORT),
             OptionRow::numbers("--sdf", Of::Sdf, self.sdf_bytes, ranges::SDF_BYTES),
+            OptionRow::numbers("--sdf-error", Of::Sdf, self.sdf_error, ABOVE_ZERO),
+            OptionRow::numbers("--sdf-rel", Of::Sdf, self.sdf_relative, FROM_ZERO),
             OptionRow::words("--sdf-kind", Of::Sdf, self.sdf_kind.map(SdfKind::name)),
             OptionRow::words("--sdf-layout", Of::Sdf, self.sdf_layout.map(SdfLayout::name)),
             OptionRow::numbers("--sdf-margin", Of::Sdf, self.sdf_margin, FROM_ZERO),
@@ -357,6 +365,11 @@ impl Options {
                 self.serves(For::Deform) && is_grid,
                 "--for deform",
                 "keeps the vertices as they are; leave out --vertex-bits",
+            ),
+            (
+                self.sdf_relative.is_some() && self.sdf_error.is_none(),
+                "--sdf-rel",
+                "adds to an error; give --sdf-error too",
             ),
             (slack && void, "--slack", "and --void are two goals; leave one of them out"),
             (

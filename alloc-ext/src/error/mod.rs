@@ -160,6 +160,24 @@ pub enum BuildError {
         /// Most bytes of the field.
         bytes: u32,
     },
+    /// No field of at most these bytes is as narrow everywhere.
+    FieldNotNarrow {
+        /// The largest width that was asked for, in the mesh's unit.
+        error: f64,
+        /// Most bytes of the field.
+        bytes: u32,
+        /// With this error there would be one, about.
+        widest: f64,
+    },
+    /// A field that is as narrow everywhere takes more bytes.
+    FieldNeedsBytes {
+        /// The largest width that was asked for, in the mesh's unit.
+        error: f64,
+        /// Most bytes of the field.
+        bytes: u32,
+        /// Bytes that it takes, about.
+        needed: usize,
+    },
     /// A field of this layout takes more bytes.
     FieldTooSmall {
         /// Bytes that were asked for.
@@ -343,6 +361,21 @@ impl fmt::Display for BuildError {
                 "points far from the surface are neither inside nor outside: the errors of a {kind} \
                  field have no room in its bytes; unite the mesh's parts, or ask for --sdf-kind \
                  surface"
+            ),
+            Self::FieldNotNarrow { error, bytes, widest } => write!(
+                f,
+                "no field of {bytes} bytes or fewer has intervals of at most {} everywhere: the \
+                 narrowest found needs an --sdf-error of about {}; ask for that, for an --sdf-rel \
+                 if it is far from the surface, or for --sdf-kind solid if it is inside",
+                Typed(*error),
+                About(*widest)
+            ),
+            Self::FieldNeedsBytes { error, bytes, needed } => write!(
+                f,
+                "a field with intervals of at most {} everywhere takes about {needed} bytes, more \
+                 than {bytes}: give it more --sdf bytes, ask for a larger --sdf-error or --sdf-rel, \
+                 or for less --sdf-margin",
+                Typed(*error)
             ),
             Self::FieldTooSmall { bytes, least } => write!(
                 f,

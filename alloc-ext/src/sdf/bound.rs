@@ -13,7 +13,9 @@
 //!
 //! *Most.* d(x) ≤ |x − q| for each point *q* of the surface, also for a mean of such bounds. They
 //! are convex: the eight corners are all to be looked at. A mean of two points on both sides of a
-//! ridge of the distance is of second order there, where each alone is not.
+//! ridge of the distance is of second order there, where each alone is not. The distance of the
+//! nearest triangle is such a bound too. Over a flat triangle it is the distance itself, whatever the
+//! box's size: by points alone, boxes at a height t could only be as large as √(t · slack).
 //!
 //! *Flat.* Let all of the surface within R = d(c) + 2.3r of the centre lie between the planes
 //! |n·(y − q)| ≤ δ ≤ r/4, and let all of its triangles there have winding number 0 in front, 1

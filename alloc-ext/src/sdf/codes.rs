@@ -5,6 +5,7 @@
 //! same three parities share no cell, so they move at once, and the codes do not depend on the
 //! number of threads.
 
+use super::allowed::Allowed;
 use super::domain::{CELL, Domain};
 use super::function::Trilinear;
 use super::prove::Errors;
@@ -13,11 +14,14 @@ use super::truth::{Side, Truth};
 use super::widths::{NEAR, Widths, weight};
 use glam::DVec3;
 use meshsweep_core::SdfKind;
-use meshsweep_core::internal::sdf::format::layout::{MOST_BASE, MOST_STEP};
+use meshsweep_core::internal::sdf::format::layout::{MOST_BASE, MOST_STEP, value_loss};
 use rayon::prelude::*;
 
 /// Weight of a cell without questions.
 const LEAST_WEIGHT: f64 = 1e-3;
+
+/// The power of the allowed width that a cell takes: its weight.
+const SHARPNESS: i32 = 8;
 
 /// Most rounds of moves.
 const ROUNDS: usize = 8;
@@ -51,7 +55,13 @@ fn value(sample: Sample, kind: SdfKind, deepest: f64) -> f64 {
 }
 
 impl Codes {
-    pub fn of(truth: &Truth<'_>, domain: &Domain, samples: &Samples) -> Self {
+    /// With a width that is allowed, the cells that take the most of it count the most.
+    pub fn of(
+        truth: &Truth<'_>,
+        domain: &Domain,
+        samples: &Samples,
+        allowed: Option<Allowed>,
+    ) -> Self {
         let kind = truth.kind;
         // Farther inside, a solid field is only to be below 0.
         let deepest = 0.5 * CELL * 3f64.sqrt();
@@ -76,8 +86,21 @@ impl Codes {
         };
         let weights = samples.cells.iter().map(weight_of).collect();
         let mut codes = Self { base: base as i32, step: step as u16, codes, weights };
-        codes.narrow(domain, samples, kind);
+        codes.narrow(domain, samples, kind, allowed);
+        if let Some(allowed) = allowed {
+            let taken = |cell: usize| {
+                let errors = codes.errors(domain, samples, cell, kind);
+                taken(allowed, &codes.corners(domain, cell), errors)
+            };
+            codes.weights = (0..domain.cell_count()).map(taken).collect();
+        }
         codes
+    }
+
+    /// The least and the greatest lower end in a cell with these errors, units.
+    pub fn lowest(&self, domain: &Domain, cell: usize, errors: Errors) -> [f64; 2] {
+        let [least, most] = lowest(&self.corners(domain, cell), errors);
+        [least - f64::from(value_loss(self.step)), most]
     }
 
     /// The function of a cell, units.
@@ -94,7 +117,13 @@ impl Codes {
         })
     }
 
-    fn narrow(&mut self, domain: &Domain, samples: &Samples, kind: SdfKind) {
+    fn narrow(
+        &mut self,
+        domain: &Domain,
+        samples: &Samples,
+        kind: SdfKind,
+        allowed: Option<Allowed>,
+    ) {
         let of = |cell: &Vec<Sample>| {
             let limits = cell.iter().map(|sample| sample.limits(kind));
             let (least, most) = limits.map(|[least, most]| (least, most)).unzip();
@@ -113,7 +142,7 @@ impl Codes {
                 let found: Vec<(usize, u8)> = corners
                     .par_iter()
                     .filter_map(|&number| {
-                        let code = self.best(domain, samples.steps, &limits, number);
+                        let code = self.best(domain, samples.steps, &limits, number, allowed);
                         (code != self.codes[number]).then_some((number, code))
                     })
                     .collect();
@@ -128,7 +157,14 @@ impl Codes {
 
     /// The code of a corner with which the cells about it are narrowest, found by single steps from
     /// the present one.
-    fn best(&self, domain: &Domain, steps: usize, limits: &[Limits], number: usize) -> u8 {
+    fn best(
+        &self,
+        domain: &Domain,
+        steps: usize,
+        limits: &[Limits],
+        number: usize,
+        allowed: Option<Allowed>,
+    ) -> u8 {
         let at = domain.corner(number);
         let mut cells = Vec::with_capacity(8);
         for corner in 0..8 {
@@ -147,8 +183,11 @@ impl Codes {
                 .iter()
                 .map(|&(cell, corner, mut corners)| {
                     corners[corner] = value;
-                    let Errors { low, high } = errors(&corners, &limits[cell], steps);
-                    self.weights[cell] * (low + high)
+                    let found = errors(&corners, &limits[cell], steps);
+                    match allowed {
+                        Some(allowed) => taken(allowed, &corners, found),
+                        None => self.weights[cell] * (found.low + found.high),
+                    }
                 })
                 .sum()
         };
@@ -174,6 +213,18 @@ impl Codes {
         let (least, most) = limits.map(|[least, most]| (least, most)).unzip();
         errors(&self.corners(domain, cell), &Limits { least, most }, samples.steps)
     }
+}
+
+fn lowest(corners: &[f64; 8], errors: Errors) -> [f64; 2] {
+    let first = [f64::INFINITY, f64::NEG_INFINITY];
+    let of_corners = |[least, most]: [f64; 2], &at: &f64| [least.min(at), most.max(at)];
+    corners.iter().fold(first, of_corners).map(|value| value - errors.low)
+}
+
+/// What a cell counts where a width is allowed.
+fn taken(allowed: Allowed, corners: &[f64; 8], errors: Errors) -> f64 {
+    let width = errors.low + errors.high;
+    allowed.taken(lowest(corners, errors), width).powi(SHARPNESS)
 }
 
 /// The values of a trilinear function at a cell's samples.

@@ -46,32 +46,38 @@ fn cells(size: DVec3, side: f64) -> [usize; 3] {
     size.to_array().map(|size| (size / side).ceil().max(1.0) as usize)
 }
 
+/// Most root cells along the longest side of a box: the fewer bytes, the fewer of them.
+const ROOTS: [usize; 3] = [5, 2, 1];
+
 /// The side of a tree's root cells that fills least beside a box: such that a side of the box is a
-/// whole number of them. The longest side of the box has three to five, if so many have room in the
-/// bytes: fewer are halved too seldom.
-fn root_side(size: DVec3, most_bytes: usize) -> f64 {
+/// whole number of them. The longest side of the box has `most` at most, and of five or more at
+/// least two less. `None` if all have more than so many root cells.
+fn root_side_of(size: DVec3, most: usize, most_count: usize) -> Option<f64> {
     let longest = size.max_element();
-    let mut best = (f64::INFINITY, longest);
-    for most in [5, 2, 1] {
-        let sides = (1..=5).flat_map(|n| (size / f64::from(n)).to_array());
-        for side in sides.filter(|side| *side > 0.0) {
-            let of = cells(size, side * (1.0 + 1e-9));
-            let count: usize = of.iter().product();
-            let along = of.into_iter().max().unwrap_or(1);
-            let has_room = 8 * tree::ENTRY_BYTES * count <= most_bytes;
-            if along > most || (most == 5 && along < 3) || (most > 1 && !has_room) {
-                continue;
-            }
-            let volume = count as f64 * (side / longest).powi(3);
-            if volume < 0.98 * best.0 {
-                best = (volume, side * (1.0 + 1e-9));
-            }
+    let mut best = None;
+    let sides = (1..=most.max(5)).flat_map(|n| (size / n as f64).to_array());
+    for side in sides.filter(|side| *side > 0.0) {
+        let of = cells(size, side * (1.0 + 1e-9));
+        let count: usize = of.iter().product();
+        let along = of.into_iter().max().unwrap_or(1);
+        if along > most || (most >= 5 && along + 2 < most) || count > most_count {
+            continue;
         }
-        if best.0.is_finite() {
-            break;
+        let volume = count as f64 * (side / longest).powi(3);
+        if best.is_none_or(|(least, _)| volume < 0.98 * least) {
+            best = Some((volume, side * (1.0 + 1e-9)));
         }
     }
-    best.1
+    best.map(|(_, side)| side)
+}
+
+/// The same with as many root cells along the longest side as have room in the bytes: fewer are
+/// halved too seldom.
+fn root_side(size: DVec3, most_bytes: usize) -> f64 {
+    let room = most_bytes / (8 * tree::ENTRY_BYTES);
+    let count = |most: usize| if most > 1 { room } else { usize::MAX };
+    let side = ROOTS.into_iter().find_map(|most| root_side_of(size, most, count(most)));
+    side.unwrap_or(size.max_element())
 }
 
 /// The largest step of f32 numbers in a box: corners of the lattice are off by half of it.
@@ -113,6 +119,16 @@ impl Domain {
         most_bytes: usize,
     ) -> Result<Self, BuildError> {
         Self::about(bounds, margin, ROOT, |size| root_side(size, most_bytes))
+    }
+
+    /// The same with at most so many root cells along the longest side.
+    ///
+    /// # Errors
+    /// As of a lattice.
+    pub fn of_roots(bounds: &Bounds, margin: Option<f64>, most: usize) -> Result<Self, BuildError> {
+        Self::about(bounds, margin, ROOT, |size| {
+            root_side_of(size, most, usize::MAX).unwrap_or(size.max_element())
+        })
     }
 
     fn about(

@@ -14,8 +14,12 @@
 //! books     books of errors or widths
 //! encode    the section's bytes of a lattice
 //! widths    mean and largest width of intervals
+//! allowed   the width that intervals may have at most
 //! tree      the stages of the other layout
-//! build     the stages, and their report
+//! options   how to build a field
+//! field     the stages of a field, and its report
+//! fewest    the field of the fewest bytes for a largest width
+//! build     which field is kept
 //! ```
 //!
 //! *Where errors come from.* Samples tell the errors that a cell needs about. The books are made of
@@ -26,6 +30,7 @@
 //! *Rounding.* All is computed in a frame whose unit is the field's. Lengths are below 2^20 there,
 //! so one margin (`region::MARGIN`) in that unit is enough for every mesh.
 
+mod allowed;
 mod books;
 mod bound;
 mod build;
@@ -33,7 +38,10 @@ mod codes;
 mod domain;
 mod encode;
 mod facet;
+mod fewest;
+mod field;
 mod function;
+mod options;
 mod prove;
 mod region;
 mod samples;
@@ -41,5 +49,7 @@ mod tree;
 mod truth;
 mod widths;
 
-pub use build::{BYTES, SdfOptions, SdfReport, build};
+pub use build::build;
+pub use field::SdfReport;
 pub use meshsweep_core::{SdfKind, SdfLayout};
+pub use options::{BYTES, SdfOptions};

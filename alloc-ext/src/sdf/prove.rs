@@ -48,20 +48,12 @@ fn needed(
     let facets = &truth.facets;
     let above = || {
         let found = most(linear, region, nears, wanted.high);
-        if found > wanted.high && region.is_near() {
-            found.min(most_of_facet(linear, region, facets))
-        } else {
-            found
-        }
+        if found > wanted.high { found.min(most_of_facet(linear, region, facets)) } else { found }
     };
     // Of the distance inside, which is negative.
     let below = || {
         let found = most(&negative, region, nears, wanted.low);
-        if found > wanted.low && region.is_near() {
-            found.min(most_of_facet(&negative, region, facets))
-        } else {
-            found
-        }
+        if found > wanted.low { found.min(most_of_facet(&negative, region, facets)) } else { found }
     };
     let to_zero = || greatest(linear, region);
     match (truth.kind, side) {

@@ -155,12 +155,6 @@ impl Region {
         is_met.then_some(self.distance + BALL * self.radius)
     }
 
-    /// Whether the surface is so near that the nearest triangle is a better bound than its nearest
-    /// point.
-    pub fn is_near(&self) -> bool {
-        self.distance <= 2.0 * self.radius
-    }
-
     /// Whether something with this normal and height over the box's centre may be nearest.
     #[inline]
     fn reaches(&self, normal: DVec3, height: f64) -> bool {

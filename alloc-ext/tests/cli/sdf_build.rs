@@ -49,6 +49,23 @@ fn a_field_is_reported_with_its_kind_and_its_widths_and_there_is_no_tree() {
 }
 
 #[test]
+fn a_width_that_is_asked_for_is_printed_or_refused_with_one_that_there_is() {
+    let directory = scratch("sdf_error");
+    let mesh = block(&directory, false);
+    let text = build(&mesh, &["--sdf-error", "0.4"]);
+    assert!(text.contains("no interval in the field is wider than 0.3"), "{text}");
+    assert!(text.contains("--sdf-error 0.4 allows no more"), "{text}");
+    let options = ["--sdf-error", "0.3", "--sdf-rel", "0.1", "--json"];
+    let json: Value = serde_json::from_str(&build(&mesh, &options)).unwrap();
+    assert_eq!(json["options"], "--for sdf --sdf 1024 --sdf-error 0.3 --sdf-rel 0.1");
+    let blob = mesh.with_extension("msw");
+    let options = ["--for", "sdf", "--sdf-error", "0.0001"];
+    let given = ["build", arg(&mesh), "-o", arg(&blob)];
+    let told = refused(&run([given.as_slice(), options.as_slice()].concat()), 1, "block.obj");
+    assert!(told.contains("needs an --sdf-error of about"), "{told}");
+}
+
+#[test]
 fn the_narrower_layout_is_kept_and_the_other_is_named() {
     let directory = scratch("sdf_layouts");
     let mesh = block(&directory, false);

@@ -5,6 +5,7 @@
 //! opens must be safe to ask anything: no panic, and no more work than a fixed multiple of its
 //! records.
 
+mod both;
 mod build;
 mod corpus;
 mod curves;
@@ -20,6 +21,7 @@ mod tribox;
 mod triboxes;
 mod trusted;
 
+pub use both::both_seeds;
 pub use corpus::{corpus, of_hex, pack, unpack};
 pub use curves::{ask_curve, curve_seeds};
 pub use deform::deform_seeds;
@@ -57,6 +59,7 @@ targets! {
     curves: curves;
     deform: deform;
     sdf: sdf;
+    both: both;
     mesh: mesh;
     build: build;
 }

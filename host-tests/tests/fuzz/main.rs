@@ -109,6 +109,7 @@ tests! {
     curves: 5000;
     deform: 5000;
     sdf: 5000;
+    both: 5000;
     mesh: 5000;
     build: 40;
 }

@@ -8,5 +8,6 @@ mod proof;
 mod size;
 mod tree;
 mod truth;
+mod width;
 mod with_tree;
 mod with_tree_moving;

@@ -4,9 +4,9 @@
 //! a point x it is at least as far as x is above the highest. Over a box with the centre c that is
 //! h + n·(x − c), h the height of c. Taken along the way from a near point of the triangle to c, it
 //! is the distance but for rounding, and it holds whatever rounding did to n. The distance of the
-//! surface is the least of those. It is at most |x − q|, q any point of the surface: convex, so the
-//! eight corners bound it against a linear function. The side is the same all over the box, for the
-//! surface does not cross it.
+//! surface is the least of those. It is at most |x − q|, q any point of the surface, and at most the
+//! distance of any triangle: both are convex, so the eight corners bound them against a linear
+//! function. The side is the same all over the box, for the surface does not cross it.
 //!
 //! *Across the surface.* Let all of the surface within 4r of c, the box's half diagonal being r,
 //! lie within δ ≤ r/2 of a plane through the nearest point, with the winding numbers 0 above and 1
@@ -281,18 +281,23 @@ impl Cell<'_> {
         };
         let or_open =
             |is_proved: bool, side| if is_proved { Found::Proved } else { Found::Open(side) };
-        let outside = || {
-            about.is_above_low(part.half, seen, 1.0)
-                && about.is_below_high(part.half, part.centre, nearest.foot, 1.0)
+        let corners = triangles[nearest.triangle as usize];
+        // The nearest point of the surface, then the nearest triangle: both distances are convex.
+        let is_within = |sign: f64, error: f64| {
+            about.excess(part.half, sign, |way| (part.centre + way).distance(nearest.foot)) <= error
+                || about.excess(part.half, sign, |way| {
+                    let at = part.centre + way;
+                    at.distance(foot(at, corners))
+                }) <= error
         };
+        let outside = || about.is_above_low(part.half, seen, 1.0) && is_within(1.0, about.high);
         let Some(sides) = self.sides else { return or_open(outside(), None) };
         let is_solid = self.field.is_solid();
         let inside = || {
             if is_solid {
                 return about.is_at_most_zero(part.half);
             }
-            about.is_above_low_inside(part.half, part.centre, nearest.foot)
-                && about.is_below_high_inside(part.half, seen)
+            is_within(-1.0, about.low) && about.is_below_high_inside(part.half, seen)
         };
         if seen.iter().all(|seen| seen.height > r + MARGIN) {
             let side = part.side.unwrap_or_else(|| sides.at(part.centre));
@@ -401,27 +406,18 @@ impl About {
         self.margin(half, seen, -1.0) + self.high >= 0.0
     }
 
-    /// The most that the distance from a point of the surface is above `sign` times the function.
-    fn excess(&self, half: DVec3, centre: DVec3, foot: DVec3, sign: f64) -> f64 {
+    /// The most that a convex distance is above `sign` times the function. It is given on the way
+    /// from the centre to each corner.
+    fn excess(&self, half: DVec3, sign: f64, distance: impl Fn(DVec3) -> f64) -> f64 {
         let corners = (0..8).map(|k| {
             let way = DVec3::new(
                 if k & 1 == 0 { -half.x } else { half.x },
                 if k & 2 == 0 { -half.y } else { half.y },
                 if k & 4 == 0 { -half.z } else { half.z },
             );
-            (centre + way).distance(foot) - sign * self.gradient.dot(way)
+            distance(way) - sign * self.gradient.dot(way)
         });
         corners.fold(f64::NEG_INFINITY, f64::max) - sign * self.value + self.rest
-    }
-
-    /// The distance is at most the function and the error above.
-    fn is_below_high(&self, half: DVec3, centre: DVec3, foot: DVec3, sign: f64) -> bool {
-        self.excess(half, centre, foot, sign) <= self.high
-    }
-
-    /// Function less the error below is at most minus the distance.
-    fn is_above_low_inside(&self, half: DVec3, centre: DVec3, foot: DVec3) -> bool {
-        self.excess(half, centre, foot, -1.0) <= self.low
     }
 }
 

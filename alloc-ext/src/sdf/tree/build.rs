@@ -3,13 +3,15 @@
 use super::codes::{Coded, Scale};
 use super::fit::{Fitted, Fitter};
 use super::grid::Batch;
-use super::leaf::{Leaf, entry, losses};
+use super::leaf::{Leaf, Shape, entry, losses};
 use super::partition::Box3;
-use super::search::{entries, search};
+use super::search::{Laid, entries, search};
 use crate::error::BuildError;
 use crate::progress::Watch;
+use crate::sdf::allowed::{Allowed, widest};
 use crate::sdf::books::{self, book};
 use crate::sdf::domain::{Domain, ROOT};
+use crate::sdf::function::{Function, Linear};
 use crate::sdf::prove::{Errors, Proof, Prover};
 use crate::sdf::region::MARGIN;
 use crate::sdf::samples::{Sample, of_box};
@@ -41,6 +43,8 @@ pub(in crate::sdf) struct Tree {
     pub leaves: usize,
     /// Largest width of a leaf, units.
     pub largest: u32,
+    /// No answer is wider, units.
+    pub widest: f64,
     /// Leaves with places whose side is undecided.
     pub undecided: usize,
     pub boxes: usize,
@@ -48,10 +52,8 @@ pub(in crate::sdf) struct Tree {
 }
 
 /// A leaf in progress.
-struct Made {
+pub(super) struct Made {
     of: Box3,
-    /// Number of its entry.
-    number: usize,
     samples: Vec<Sample>,
     /// Steps between them along each side.
     steps: usize,
@@ -96,127 +98,233 @@ impl Made {
     }
 }
 
-/// Builds a tree; `None` of a field that does not fit its numbers. `off` is how far the input may
-/// be from the mesh, units.
+/// What trees of a mesh are made of.
+#[derive(Clone, Copy)]
+pub(in crate::sdf) struct Maker<'a> {
+    pub truth: &'a Truth<'a>,
+    pub domain: &'a Domain,
+    /// How far the input may be from the mesh, units.
+    pub off: f64,
+    pub allowed: Option<Allowed>,
+}
+
+/// What came of leaves.
+pub(super) enum Finished {
+    Tree(Tree),
+    /// These take more than 1 of the allowed width: so much.
+    TooWide(Vec<(usize, f64)>),
+    /// The field does not fit the numbers of a tree.
+    NoRoom,
+}
+
+/// Builds a tree; `None` of a field that does not fit its numbers.
 pub(in crate::sdf) fn build(
-    truth: &Truth<'_>,
-    domain: &Domain,
-    off: f64,
+    maker: &Maker<'_>,
     most_bytes: usize,
     watch: Watch<'_>,
 ) -> Result<Option<Tree>, BuildError> {
-    let kind = truth.kind;
-    let is_cut = kind != SdfKind::Signed;
-    let (near, slack) = (NEAR * domain.diagonal, SLACK * domain.diagonal);
-    let most_entries = (most_bytes.saturating_sub(SDF_BYTES) / ENTRY_BYTES).min(MOST_ENTRIES);
+    let Maker { truth, domain, .. } = *maker;
+    let most_entries = most_entries(most_bytes);
     if domain.cell_count() > most_entries {
         return Ok(None);
     }
     let choices = search(truth, domain, most_entries, watch.part(0.0, 0.5))?;
-    let Some((mut entries, leaves, steps)) = entries(domain, &choices) else { return Ok(None) };
-    let leaves = watch.part(0.5, 0.65).map(leaves.len(), |leaf| {
-        let (number, of) = leaves[leaf];
-        let steps = STEPS[usize::from(of.half().max_element() > ROOT / 8.0 + 1.0)];
-        let samples = of_box(truth, of.corner(), 2.0 * of.half(), steps);
-        let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
-        batch.fill(&samples, steps, kind, near);
-        let first = fitter.fit(&batch, of.half(), is_cut);
-        let fitted = fitter.polish(&batch, of.half(), is_cut, first);
-        Made { of, number, samples, steps, fitted }
-    })?;
-    let offsets: Vec<f64> = leaves.iter().map(|leaf| leaf.offset(off, slack)).collect();
-    let Some(scale) = Scale::of(offsets.iter().copied()) else { return Ok(None) };
-    // The width that holds an error above of the function with the value 0 at the centre.
-    let width = |leaf: &Made, code: i64, high: f64| {
-        let [below, _] = leaf.losses(off);
-        (high - scale.value(code) + below).ceil().clamp(0.0, 1e9) as u32
-    };
-    let asked: Vec<Coded> = (leaves.iter().zip(&offsets))
-        .map(|(leaf, &offset)| {
-            let code = scale.code(offset);
-            Coded { code, width: width(leaf, code, leaf.fitted.errors.high + slack) }
-        })
-        .collect();
-    let mut batch = Batch::default();
-    let weights: Vec<f64> = leaves.iter().map(|leaf| leaf.weight(&mut batch, kind, near)).collect();
-    let widths: Vec<u32> = asked.iter().map(|coded| coded.width).collect();
-    let first: [u32; WIDTHS] = book(&widths, &weights);
-    let held = |leaf: &Made, code: i64, width: u32| {
-        let [below, above] = leaf.losses(off);
-        (scale.value(code), Errors { low: -above, high: f64::from(width) - below })
-    };
-    let proofs = watch.part(0.65, 1.0).map(leaves.len(), |number| {
-        let (leaf, Coded { code, width }) = (&leaves[number], asked[number]);
-        let width = first[books::entry(&first, width)];
-        let (offset, wanted) = held(leaf, code, width);
-        let half = leaf.of.half();
-        let function = Leaf { half, shape: leaf.fitted.shape, offset };
-        let boxed = [leaf.of.corner(), 2.0 * half];
-        let floor = (FLOOR * domain.diagonal).max(FLOOR_OF_WIDTH * f64::from(width));
-        Prover::cell(truth, function, boxed, wanted, floor)
-    })?;
-    let mut needed: Vec<Coded> = (leaves.iter().zip(&asked).zip(&proofs))
-        .map(|((leaf, &coded), proof)| {
-            if !proof.is_widened {
-                return Coded { width: first[books::entry(&first, coded.width)], ..coded };
-            }
-            let (offset, wanted) = held(leaf, coded.code, 0);
-            let down = ((proof.errors.low - wanted.low) / scale.step()).ceil();
-            let code = coded.code - down as i64;
-            Coded { code, width: width(leaf, code, offset + proof.errors.high) }
-        })
-        .collect();
-    let Some(scale) = scale.holding(&mut needed) else { return Ok(None) };
-    // The entries that were proved, and the widths that had to grow, have one book more.
-    let widths: Vec<u32> = needed.iter().map(|coded| coded.width).collect();
-    let book: [u32; WIDTHS] = book(&widths, &weights);
-    if book[WIDTHS - 1] > u32::from(u16::MAX) {
-        return Ok(None);
+    let Some(laid) = entries(domain, &choices) else { return Ok(None) };
+    let made =
+        watch.part(0.5, 0.65).map(laid.leaves.len(), |leaf| maker.made(laid.leaves[leaf].1))?;
+    match maker.finish(laid, &made.iter().collect::<Vec<_>>(), watch.part(0.65, 1.0))? {
+        Finished::Tree(tree) => Ok(Some(tree)),
+        _ => Ok(None),
     }
-    let (mut found, mut largest) = (Widths::default(), 0);
-    let mut fitter = Fitter::default();
-    for (leaf, &Coded { code, width }) in leaves.iter().zip(&needed) {
-        let place = books::entry(&book, width);
-        let Some(bytes) = entry(leaf.fitted.shape, code, place) else { return Ok(None) };
-        entries[leaf.number] = bytes;
-        let weight = leaf.volume() / leaf.samples.len() as f64;
-        batch.fill(&leaf.samples, leaf.steps, kind, near);
-        let values = fitter.values(&batch, leaf.of.half(), leaf.fitted.shape);
-        for (number, (value, &sample)) in values.iter().zip(&leaf.samples).enumerate() {
-            if !domain.is_asked(leaf.place(number)) {
-                continue;
-            }
-            let lower = f64::from(*value) + scale.value(code);
-            found.add(sample, kind, near, [lower, lower + f64::from(book[place])], weight);
+}
+
+/// Entries of a tree of so many bytes.
+pub(super) fn most_entries(most_bytes: usize) -> usize {
+    (most_bytes.saturating_sub(SDF_BYTES) / ENTRY_BYTES).min(MOST_ENTRIES)
+}
+
+impl Maker<'_> {
+    /// Distance from the surface up to which a box's fit looks at all samples, units. Where widths
+    /// are limited all of them count.
+    pub(super) fn near(&self) -> f64 {
+        match self.allowed {
+            Some(_) => f64::INFINITY,
+            None => NEAR * self.domain.diagonal,
         }
-        largest = largest.max(book[place]);
     }
-    let book = book.map(|width| width as u16);
-    let [low, high] = [0, BOOK].map(|from| std::array::from_fn(|k| book[from + k]));
-    let header = SdfHeader {
-        origin: domain.origin,
-        per_unit: domain.per_unit,
-        unit: domain.unit,
-        base: scale.base,
-        step: scale.step,
-        kind,
-        layout: SdfLayout::Tree,
-        cells: domain.cells.map(|count| count as u8),
-        steps,
-        low,
-        high,
-    };
-    let mut section = header.write().to_vec();
-    section.extend(entries.into_flattened());
-    let is_undecided = |(leaf, proof): &(&Made, &Proof)| proof.is_undecided || leaf.is_undecided();
-    Ok(Some(Tree {
-        section,
-        widths: found,
-        steps: u32::from(steps),
-        leaves: leaves.len(),
-        largest,
-        undecided: leaves.iter().zip(&proofs).filter(is_undecided).count(),
-        boxes: proofs.iter().map(|proof| proof.boxes).sum(),
-        widened: proofs.iter().filter(|proof| proof.is_widened).count(),
-    }))
+
+    pub(super) fn is_cut(&self) -> bool {
+        self.truth.kind != SdfKind::Signed
+    }
+
+    fn slack(&self) -> f64 {
+        SLACK * self.domain.diagonal
+    }
+
+    /// How much of the allowed width a leaf takes with this value at its centre; 0 if all is
+    /// allowed.
+    fn taken(&self, half: DVec3, shape: Shape, value: f64, width: f64) -> f64 {
+        let lower = lowest(half, shape, value);
+        self.allowed.map_or(0.0, |allowed| allowed.taken(lower, width))
+    }
+
+    /// The same of a box that samples fitted, with a code that is off by a step.
+    pub(super) fn taken_by(&self, half: DVec3, fitted: &Fitted, step: f64) -> f64 {
+        let [below, above] = losses(fitted.shape, half).map(|loss| loss + self.off + MARGIN);
+        let Errors { low, high } = fitted.errors;
+        let value = -low - above - self.slack() - step;
+        self.taken(half, fitted.shape, value, high + self.slack() - value + below + 1.0)
+    }
+
+    /// A leaf, fitted at last.
+    pub(super) fn made(&self, of: Box3) -> Made {
+        let steps = STEPS[usize::from(of.half().max_element() > ROOT / 8.0 + 1.0)];
+        let samples = of_box(self.truth, of.corner(), 2.0 * of.half(), steps);
+        let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
+        batch.fill(&samples, steps, self.truth.kind, self.near());
+        let first = fitter.fit(&batch, of.half(), self.is_cut());
+        let fitted = fitter.polish(&batch, of.half(), self.is_cut(), first);
+        Made { of, samples, steps, fitted }
+    }
+
+    /// Codes, books and proofs of leaves.
+    pub(super) fn finish(
+        &self,
+        Laid { mut entries, leaves: places, steps }: Laid,
+        leaves: &[&Made],
+        watch: Watch<'_>,
+    ) -> Result<Finished, BuildError> {
+        let Self { truth, domain, off, .. } = *self;
+        let kind = truth.kind;
+        let (near, slack) = (NEAR * domain.diagonal, self.slack());
+        let offsets: Vec<f64> = leaves.iter().map(|leaf| leaf.offset(off, slack)).collect();
+        let Some(scale) = Scale::of(offsets.iter().copied()) else { return Ok(Finished::NoRoom) };
+        // The width that holds an error above of the function with the value 0 at the centre.
+        let width = |leaf: &Made, code: i64, high: f64| {
+            let [below, _] = leaf.losses(off);
+            (high - scale.value(code) + below).ceil().clamp(0.0, 1e9) as u32
+        };
+        let asked: Vec<Coded> = (leaves.iter().zip(&offsets))
+            .map(|(leaf, &offset)| {
+                let code = scale.code(offset);
+                Coded { code, width: width(leaf, code, leaf.fitted.errors.high + slack) }
+            })
+            .collect();
+        let mut batch = Batch::default();
+        let weights: Vec<f64> =
+            leaves.iter().map(|leaf| leaf.weight(&mut batch, kind, near)).collect();
+        // Those that are wider than allowed with the entries of a book.
+        let too_wide = |scale: Scale, coded: &[Coded], book: &[u32; WIDTHS]| -> Vec<(usize, f64)> {
+            let taken = |(leaf, &Coded { code, width }): (usize, &Coded)| {
+                let (of, width) = (leaves[leaf], book[books::entry(book, width)]);
+                let value = scale.value(code);
+                (leaf, self.taken(of.of.half(), of.fitted.shape, value, f64::from(width)))
+            };
+            coded.iter().enumerate().map(taken).filter(|&(_, taken)| taken > 1.0).collect()
+        };
+        let widths: Vec<u32> = asked.iter().map(|coded| coded.width).collect();
+        let first: [u32; WIDTHS] = book(&widths, &weights);
+        let wide = too_wide(scale, &asked, &first);
+        if !wide.is_empty() {
+            return Ok(Finished::TooWide(wide));
+        }
+        let held = |leaf: &Made, code: i64, width: u32| {
+            let [below, above] = leaf.losses(off);
+            (scale.value(code), Errors { low: -above, high: f64::from(width) - below })
+        };
+        let proofs = watch.map(leaves.len(), |number| {
+            let (leaf, Coded { code, width }) = (leaves[number], asked[number]);
+            let width = first[books::entry(&first, width)];
+            let (offset, wanted) = held(leaf, code, width);
+            let half = leaf.of.half();
+            let function = Leaf { half, shape: leaf.fitted.shape, offset };
+            let boxed = [leaf.of.corner(), 2.0 * half];
+            let floor = (FLOOR * domain.diagonal).max(FLOOR_OF_WIDTH * f64::from(width));
+            Prover::cell(truth, function, boxed, wanted, floor)
+        })?;
+        let mut needed: Vec<Coded> = (leaves.iter().zip(&asked).zip(&proofs))
+            .map(|((leaf, &coded), proof)| {
+                if !proof.is_widened {
+                    return Coded { width: first[books::entry(&first, coded.width)], ..coded };
+                }
+                let (offset, wanted) = held(leaf, coded.code, 0);
+                let down = ((proof.errors.low - wanted.low) / scale.step()).ceil();
+                let code = coded.code - down as i64;
+                Coded { code, width: width(leaf, code, offset + proof.errors.high) }
+            })
+            .collect();
+        let Some(scale) = scale.holding(&mut needed) else { return Ok(Finished::NoRoom) };
+        // The entries that were proved, and the widths that had to grow, have one book more.
+        let widths: Vec<u32> = needed.iter().map(|coded| coded.width).collect();
+        let book: [u32; WIDTHS] = book(&widths, &weights);
+        let wide = too_wide(scale, &needed, &book);
+        if !wide.is_empty() {
+            return Ok(Finished::TooWide(wide));
+        }
+        if book[WIDTHS - 1] > u32::from(u16::MAX) {
+            return Ok(Finished::NoRoom);
+        }
+        let (mut found, mut largest, mut most) = (Widths::default(), 0, 0f64);
+        let mut fitter = Fitter::default();
+        for ((leaf, &Coded { code, width }), &(number, _)) in
+            leaves.iter().zip(&needed).zip(&places)
+        {
+            let place = books::entry(&book, width);
+            let (shape, half) = (leaf.fitted.shape, leaf.of.half());
+            let Some(bytes) = entry(shape, code, place) else { return Ok(Finished::NoRoom) };
+            entries[number] = bytes;
+            let weight = leaf.volume() / leaf.samples.len() as f64;
+            batch.fill(&leaf.samples, leaf.steps, kind, near);
+            let (value, wide) = (scale.value(code), f64::from(book[place]));
+            for (number, (more, &sample)) in
+                fitter.values(&batch, half, shape).iter().zip(&leaf.samples).enumerate()
+            {
+                if !domain.is_asked(leaf.place(number)) {
+                    continue;
+                }
+                let lower = f64::from(*more) + value;
+                found.add(sample, kind, near, [lower, lower + wide], weight);
+            }
+            largest = largest.max(book[place]);
+            most = most.max(widest(kind, lowest(half, shape, value), wide));
+        }
+        let book = book.map(|width| width as u16);
+        let [low, high] = [0, BOOK].map(|from| std::array::from_fn(|k| book[from + k]));
+        let header = SdfHeader {
+            origin: domain.origin,
+            per_unit: domain.per_unit,
+            unit: domain.unit,
+            base: scale.base,
+            step: scale.step,
+            kind,
+            layout: SdfLayout::Tree,
+            cells: domain.cells.map(|count| count as u8),
+            steps,
+            low,
+            high,
+        };
+        let mut section = header.write().to_vec();
+        section.extend(entries.into_flattened());
+        let is_undecided =
+            |(leaf, proof): &(&&Made, &Proof)| proof.is_undecided || leaf.is_undecided();
+        Ok(Finished::Tree(Tree {
+            section,
+            widths: found,
+            steps: u32::from(steps),
+            leaves: leaves.len(),
+            largest,
+            widest: most,
+            undecided: leaves.iter().zip(&proofs).filter(is_undecided).count(),
+            boxes: proofs.iter().map(|proof| proof.boxes).sum(),
+            widened: proofs.iter().filter(|proof| proof.is_widened).count(),
+        }))
+    }
+}
+
+/// The least and the greatest lower end in a leaf with this value at its centre, units.
+fn lowest(half: DVec3, shape: Shape, value: f64) -> [f64; 2] {
+    let Linear { value, gradient, rest } = Leaf { half, shape, offset: value }.about(half, half);
+    let reach = gradient.abs().dot(half) + rest;
+    let [below, above] = losses(shape, half);
+    [value - reach - below, value + reach + above]
 }

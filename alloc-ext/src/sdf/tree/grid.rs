@@ -100,6 +100,11 @@ impl Grid {
         Ok(Self { places, all })
     }
 
+    /// The distances, units.
+    pub fn values(&self) -> impl Iterator<Item = f64> + Clone {
+        self.all.value.iter().map(|&value| f64::from(value))
+    }
+
     /// The samples of a box: all, or some at even steps.
     pub fn fill(&self, of: &Box3, batch: &mut Batch) {
         let (start, size) = (of.start(STEPS), of.size(STEPS));

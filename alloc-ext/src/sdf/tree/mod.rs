@@ -8,6 +8,7 @@
 //! search     their costs, and the entries of the best
 //! codes      the functions' values, as they are stored
 //! build      the stages, and the section's bytes
+//! narrow     the best boxes for a largest width
 //! ```
 //!
 //! *Partition.* Every dyadic box of a root cell is fitted once, by few samples. A box costs the
@@ -21,7 +22,9 @@ mod codes;
 mod fit;
 mod grid;
 mod leaf;
+mod narrow;
 mod partition;
 mod search;
 
-pub(super) use build::build;
+pub(super) use build::{Maker, Tree, build};
+pub(super) use narrow::{Narrow, build as narrow};

@@ -17,7 +17,7 @@ pub(super) const BOXES: usize = ALONG * ALONG * ALONG;
 const PRICES: usize = 26;
 
 /// A dyadic box of a root cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Box3 {
     /// Number of the root cell along each axis.
     pub root: [usize; 3],
@@ -39,7 +39,7 @@ impl Box3 {
         Self { root, level, at: [0, 1, 2].map(|axis| along[axis] + 1 - (1 << level[axis])) }
     }
 
-    fn number(&self) -> usize {
+    pub fn number(&self) -> usize {
         let [x, y, z] = [0, 1, 2].map(|axis| (1 << self.level[axis]) - 1 + self.at[axis]);
         x + ALONG * (y + ALONG * z)
     }
@@ -203,4 +203,11 @@ pub(super) fn partition(
         }
     }
     (best, high as f32)
+}
+
+/// The partition of all root cells into the fewest entries, by boxes of cost 0 and none of an
+/// infinite one. Where there is no such partition, a leaf costs infinitely much.
+pub(super) fn fewest(costs: &[Vec<f32>]) -> Vec<Choice> {
+    let order = order(LEVELS);
+    costs.par_iter().map(|costs| choose(costs, &order, LEVELS, 1.0)).collect()
 }

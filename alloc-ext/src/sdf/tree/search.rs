@@ -60,10 +60,17 @@ pub(super) fn search(
     Ok(choices)
 }
 
-/// Entries, the numbers of those that are leaves with their boxes, and the most steps to one.
-type Laid = (Vec<[u8; ENTRY_BYTES]>, Vec<(usize, Box3)>, u8);
+/// A tree without its leaves' functions.
+pub(super) struct Laid {
+    /// Nodes as they stand, and leaves to be filled.
+    pub entries: Vec<[u8; ENTRY_BYTES]>,
+    /// Numbers of the entries that are leaves, with their boxes.
+    pub leaves: Vec<(usize, Box3)>,
+    /// The most entries that a question reads.
+    pub steps: u8,
+}
 
-/// The entries of the partition: nodes as they stand, and leaves to be filled.
+/// The entries of the partition; `None` if a child is too far from its node.
 pub(super) fn entries(domain: &Domain, choices: &[Choice]) -> Option<Laid> {
     let mut entries = vec![[0; ENTRY_BYTES]; choices.len()];
     let mut leaves = Vec::new();
@@ -86,5 +93,5 @@ pub(super) fn entries(domain: &Domain, choices: &[Choice]) -> Option<Laid> {
             open.extend(children.rev().map(|(at, part)| (first + at, part, depth + 1)));
         }
     }
-    Some((entries, leaves, steps))
+    Some(Laid { entries, leaves, steps })
 }

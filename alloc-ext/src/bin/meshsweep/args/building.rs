@@ -99,6 +99,14 @@ pub struct BuildArgs {
     /// Bytes of the distance field, with --for sdf [default: 16K]
     #[arg(long, value_name = "BYTES", value_parser = sdf_bytes)]
     pub sdf: Option<u32>,
+    /// Largest width of the field's intervals, in the mesh's unit
+    ///
+    /// The field takes the fewest bytes found, --sdf at most [default: 256K].
+    #[arg(long, value_name = "DISTANCE", value_parser = distance)]
+    pub sdf_error: Option<f64>,
+    /// Part of the distance that is added to --sdf-error [default: 0]
+    #[arg(long, value_name = "FACTOR", value_parser = factor)]
+    pub sdf_rel: Option<f64>,
     /// What the field's distances mean: signed, solid or surface
     ///
     /// By default signed if the mesh is closed and has sides, else surface. See below.
@@ -204,6 +212,8 @@ impl BuildArgs {
             .margin(self.margin)
             .effort(self.effort)
             .sdf_bytes(self.sdf)
+            .sdf_error(self.sdf_error)
+            .sdf_relative(self.sdf_rel)
             .sdf_kind(self.sdf_kind)
             .sdf_layout(self.sdf_layout)
             .sdf_margin(self.sdf_margin)
