@@ -8,6 +8,7 @@ mod pairs;
 mod pool;
 mod record;
 mod rows;
+mod triboxes;
 
 use pyo3::prelude::*;
 

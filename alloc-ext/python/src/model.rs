@@ -35,7 +35,7 @@ pub struct Model {
 const ROOM: usize = 64;
 
 /// Scratch memory of so many entries.
-fn scratch(entries: usize) -> Vec<ScratchEntry> {
+pub fn scratch(entries: usize) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; entries]
 }
 
@@ -69,7 +69,7 @@ impl Model {
         Ok(Self { opened, report })
     }
 
-    fn blob(&self) -> &Blob<'_> {
+    pub fn blob(&self) -> &Blob<'_> {
         self.opened.borrow_dependent()
     }
 

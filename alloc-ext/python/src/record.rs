@@ -49,6 +49,11 @@ impl<'a> Put<'a> {
         })
     }
 
+    /// The verdict of a proof that never tells the opposite.
+    pub fn is_clear(&mut self, is_clear: bool) -> &mut Self {
+        self.byte(if is_clear { 0 } else { 2 })
+    }
+
     /// 1 outside, -1 inside, 0 undecided.
     pub fn side(&mut self, side: Side) -> &mut Self {
         let sign: i8 = match side {

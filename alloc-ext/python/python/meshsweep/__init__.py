@@ -49,6 +49,7 @@ __all__ = [
     "QueryError",
     "Side",
     "TightHull",
+    "Triboxes",
     "Verdict",
     "build",
     "load",
@@ -83,6 +84,35 @@ class AllHits(NamedTuple):
     """A list of n records."""
     is_complete: NDArray[np.bool_]
     """Shape (n,): whether it is proved that no other triangle is hit."""
+
+
+class Triboxes(NamedTuple):
+    """A union of n triboxes that holds the mesh, and its inside where `is_solid`.
+
+    A tribox holds the points p of its part for which `low[i] <= directions @ frame @ p <= high[i]`,
+    in real arithmetic: a box whose twelve edges are chamfered.
+    """
+
+    node: NDArray[np.uint32]
+    """Shape (n,): the numbers that answers name triboxes by."""
+    low: NDArray[np.float32]
+    """Shape (n, 9): least values along the directions."""
+    high: NDArray[np.float32]
+    """Shape (n, 9): greatest values along the directions."""
+    corners: NDArray[np.float32]
+    """Shape (n, 32, 3): points whose convex hull holds the tribox, in its frame. Some coincide.
+
+    No plane of the hull is farther out than 2^-20 of the power of two above all values of its
+    tribox. `corners @ frame` has them in the mesh's frame, rounded.
+    """
+    directions: NDArray[np.float32]
+    """Shape (9, 3): the axes, and the diagonals of their planes, of length sqrt(2)."""
+    frame: NDArray[np.float32]
+    """Shape (3, 3): the rotation from the mesh's frame to the triboxes'."""
+    is_solid: bool
+    """Whether the union holds the inside of the mesh."""
+    distance: float | None
+    """No point of the union's boundary is farther from the mesh; `None`: that is not stored."""
 
 
 def build(
@@ -317,8 +347,7 @@ class Model:
         if moved is not None:
             raise QueryError("all_within: the points are not in single precision; round them first")
         size, limit = _records.ALL_WITHIN.itemsize, _checked(distance)
-        (least,) = _up(np.array([limit])) if float(np.float32(limit)) < limit else [limit]
-        begins, raw, _ = self._model.all_within(rows, float(least), size)
+        begins, raw, _ = self._model.all_within(rows, _least(limit), size)
         found = records(raw, _records.ALL_WITHIN)
         found.is_certain[:] = found.upper.astype(np.float64) <= limit
         return _parts(begins, found)
@@ -443,6 +472,64 @@ class Model:
         found = self._model.field(rows, _records.FIELD.itemsize)
         return _widened(records(found, _records.FIELD), moved)
 
+    def triboxes(self, count: int | None = None) -> Triboxes:
+        """The geometry of at most `count` stored triboxes, or of all. Needs "triboxes"."""
+        if count is not None and not 1 <= count < 2**32:
+            raise QueryError(f"count: {count} is none from 1 to 2^32 - 1")
+        found = self._model.triboxes(count)
+        return Triboxes(
+            found["nodes"],
+            found["low"].reshape(-1, 9),
+            found["high"].reshape(-1, 9),
+            found["corners"].reshape(-1, 32, 3),
+            _records.DIRECTIONS.copy(),
+            np.array(found["frame"], np.float32),
+            found["is_solid"],
+            found["distance"],
+        )
+
+    def tribox_distance(self, points: ArrayLike, *, steps: int | None = None) -> Records:
+        """A lower bound of the distance of each point, by triboxes alone. Needs "triboxes".
+
+        Fields: `lower`: no point of the mesh is nearer, nor one inside of it if the triboxes are
+        solid; `tribox`, the node with this bound; `ended`; `work`. There is no upper bound. So
+        `lower > d` proves that nothing is within d, and else nothing is known.
+        """
+        rows, moved = _points(points)
+        found = self._model.tribox_distance(rows, steps, _records.TRIBOX.itemsize)
+        return _widened(records(found, _records.TRIBOX), moved)
+
+    def tribox_first_hit(
+        self, starts: ArrayLike, ends: ArrayLike, *, steps: int | None = None
+    ) -> Records:
+        """How far each segment is clear, by triboxes alone. Needs "triboxes".
+
+        Fields: `verdict`: `NO` where it is proved that the segment is clear, else `UNDECIDED`;
+        `t_lower`, the parameter before which it is clear, 0 at the start and 1 at the end, infinite
+        if it is clear; `tribox`, the node that it may enter there, or -1; `ended`; `work`.
+        """
+        size, rows = _records.TRIBOX_HIT.itemsize, _pairs(starts, ends)
+        return records(self._model.tribox_hit(rows, steps, size), _records.TRIBOX_HIT)
+
+    def tribox_within_of(
+        self, other: Model, distance: SupportsFloat, poses: ArrayLike | None = None
+    ) -> Records:
+        """Whether both models may be at most `distance` apart, at poses of the other as those of
+        `distance_to`, by triboxes alone. Both need "triboxes".
+
+        Fields: `verdict`: `NO` where it is proved that all points of both are farther, insides of
+        solid triboxes too; else `UNDECIDED`, never `YES`; `triboxes`, a node of each that may be
+        nearer, or -1; `ended`; `work`.
+        """
+        size, limit = _records.TRIBOX_PAIR.itemsize, _least(_checked(distance))
+        found = self._model.tribox_separation(_other(other), _poses(poses), limit, size)
+        return records(found, _records.TRIBOX_PAIR)
+
+    def tribox_overlap(self, other: Model, poses: ArrayLike | None = None) -> Records:
+        """Whether both models may meet: `tribox_within_of` with a distance of 0. Models that only
+        touch are not proved to be apart."""
+        return self.tribox_within_of(other, 0.0, poses)
+
     def tight_hulls(self) -> list[TightHull]:
         """Hulls of few faces that enclose the mesh, coarse to fine. Needs "tight"."""
         return [TightHull(*arrays, slack) for arrays, slack in self._model.tight_hulls()]
@@ -536,11 +623,12 @@ def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
         return found
     slack = moved.reshape(moved.shape + (1,) * (found.ndim - 1))
     is_held = slack == 0
-    lower = np.nextafter(found.lower - slack, np.float32(-np.inf))
-    upper = np.nextafter(found.upper + slack, np.float32(np.inf))
-    lower = np.where(is_held, found.lower, lower)
-    upper = np.where(is_held, found.upper, upper)
     names = found.dtype.names or ()
+    lower = np.nextafter(found.lower - slack, np.float32(-np.inf))
+    lower = np.where(is_held, found.lower, lower)
+    if "upper" in names:
+        upper = np.nextafter(found.upper + slack, np.float32(np.inf))
+        upper = found.upper[:] = np.where(is_held, found.upper, upper)
     if "side" in names:
         certain = np.where(lower > 0, Side.OUTSIDE, np.where(upper < 0, Side.INSIDE, 0))
         # A field that does not tell sides keeps its distances at 0 and above.
@@ -554,7 +642,6 @@ def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
         left = np.where(is_held, found.safe_motion, left)
         found.safe_motion[:] = np.maximum(left, np.float32(0))
     found.lower[:] = lower
-    found.upper[:] = upper
     return found
 
 
@@ -598,6 +685,12 @@ def _checked(distance: SupportsFloat) -> float:
     if value > float(np.finfo(np.float32).max):
         raise QueryError(f"distance: {distance} is beyond single precision")
     return value
+
+
+def _least(limit: float) -> float:
+    """The distance, or a little more that single precision holds."""
+    single = np.float32(limit)
+    return float(np.nextafter(single, np.float32(np.inf)) if float(single) < limit else single)
 
 
 def _facing(facing: Facing | int) -> int:

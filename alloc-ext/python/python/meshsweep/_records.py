@@ -25,6 +25,17 @@ ALL_HITS = np.dtype([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")]
 FIELD = np.dtype([*_INTERVAL, ("side", "i1"), ("gradient", "f4", 3)])
 PAIR = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END])
 MEETS = np.dtype([("verdict", "u1"), ("triangles", "i8", 2), *_END])
+TRIBOX = np.dtype([("lower", "f4"), ("tribox", "i8"), *_END])
+TRIBOX_HIT = np.dtype([("verdict", "u1"), ("t_lower", "f4"), ("tribox", "i8"), *_END])
+TRIBOX_PAIR = np.dtype([("verdict", "u1"), ("triboxes", "i8", 2), *_END])
+
+DIRECTIONS = np.array(
+    [
+        *[[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+        *[[1, 1, 0], [1, -1, 0], [0, 1, 1], [0, 1, -1], [1, 0, 1], [-1, 0, 1]],
+    ],
+    np.float32,
+)
 
 
 class Verdict(IntEnum):
