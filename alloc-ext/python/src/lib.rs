@@ -2,6 +2,7 @@
 //! out; `python/meshsweep` gives them names.
 
 mod build;
+mod curve;
 mod error;
 mod model;
 mod pairs;

@@ -7,7 +7,8 @@
 >>> part.save("part.msw")
 
 Lengths are in the mesh's unit. Questions take rows of an array of shape (n, 3) and give records of
-shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. They run on all cores and
+shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. Of curves in the plane
+z = 0 they take shape (n, 2) too. They run on all cores and
 without the interpreter's lock; Ctrl-C ends them. The bits of the answers are those that firmware
 computes.
 
@@ -205,6 +206,9 @@ class Model:
     def __reduce__(self) -> tuple[type[Model], tuple[bytes]]:
         return Model, (bytes(self),)
 
+    def _points(self, points: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
+        return _points(points, (3, 2) if self._facts["is_flat"] else (3,))
+
     def __repr__(self) -> str:
         return f"<meshsweep.Model for {','.join(self.serves)}: {len(bytes(self))} bytes>"
 
@@ -242,7 +246,7 @@ class Model:
 
     @property
     def has_sides(self) -> bool | None:
-        """Whether `signed_distance` tells sides; `None` without a box tree."""
+        """Whether `signed_distance` tells sides; `None` without a box tree and without curves."""
         return self._facts["has_sides"]
 
     @property
@@ -270,7 +274,7 @@ class Model:
         after so many `steps`: the interval is wider then, and holds.
         """
         dtype = _records.CLOSEST_ON_CURVE if self._facts["is_curve"] else _records.CLOSEST
-        rows, moved = _points(points)
+        rows, moved = self._points(points)
         found = self._model.closest_point(rows, (float(rel), float(abs), steps), dtype.itemsize)
         return _widened(records(found, dtype), moved)
 
@@ -286,7 +290,17 @@ class Model:
         The winding number of an open mesh passes 1/2 away from the surface. So it tells no side of
         a point that single precision does not hold: of an open mesh such points are undecided. Give
         float32 to have their sides.
+
+        Of a fence, which is closed curves in a plane of constant z, `points` have shape (n, 2), and
+        `INSIDE` says that the fence allows the point: it is in an inclusion zone, or there is none,
+        and in no exclusion zone. Fields are `polyline`, `segment` and `safe_motion` in place of
+        `triangle`. The distance is that of the nearest line of any zone.
         """
+        if self._facts["is_curve"]:
+            rows, moved = _points(points, (2,))
+            size = _records.SIGNED_OF_FENCE.itemsize
+            raw = self._model.signed_distance_of_fence(rows, steps, size)
+            return _widened(records(raw, _records.SIGNED_OF_FENCE), moved)
         rows, moved = _points(points)
 
         def ask(rows: NDArray[np.float32], by_nearest_alone: bool) -> Records:
@@ -307,16 +321,17 @@ class Model:
         """Whether the surface is at most `distance` from each point.
 
         Fields: `verdict` (a `Verdict`: 0 only where it is proved that nothing is so near);
-        `triangle`, the witness of a `YES`, or -1, of curves its segment; `ended`; `work`. Deep
-        inside a part nothing is near.
+        `triangle`, the witness of a `YES`, or -1; of curves `polyline` and `segment`; `ended`;
+        `work`. Deep inside a part nothing is near.
         """
-        rows, moved = _points(points)
-        size, limit = _records.WITHIN.itemsize, _checked(distance)
+        rows, moved = self._points(points)
+        dtype = _records.WITHIN_OF_CURVE if self._facts["is_curve"] else _records.WITHIN
+        limit = _checked(distance)
 
         def ask(limits: NDArray[np.float32]) -> Records:
             limits = np.broadcast_to(limits[:, None], (len(rows), 1))
-            found = self._model.within(np.hstack([rows, limits]), steps, size)
-            return records(found, _records.WITHIN)
+            found = self._model.within(np.hstack([rows, limits]), steps, dtype.itemsize)
+            return records(found, dtype)
 
         if moved is None:
             return _asked(ask, limit, np.zeros(1))
@@ -325,30 +340,35 @@ class Model:
     def nearest(self, points: ArrayLike, count: int) -> Records:
         """The `count` triangles nearest to each point, nearest first: shape (n, count).
 
-        Fields: `lower`, `upper`, `point`, `triangle`. A mesh with fewer triangles has fewer.
+        Fields: `lower`, `upper`, `point`, `triangle`; of curves `polyline` and `segment`. A mesh
+        with fewer triangles has fewer.
         """
-        rows, moved = _points(points)
+        rows, moved = self._points(points)
         if count < 1:
             raise QueryError("count: at least 1 is wanted")
-        found = records(
-            self._model.nearest(rows, count, _records.NEAREST.itemsize), _records.NEAREST
-        )
+        ask, dtype = self._model.nearest, _records.NEAREST
+        if self._facts["is_curve"]:
+            ask, dtype = self._model.nearest_on_curve, _records.NEAREST_ON_CURVE
+        found = records(ask(rows, count, dtype.itemsize), dtype)
         each = found.reshape(len(rows), -1) if len(rows) else found.reshape(0, count)
         return _widened(cast(Records, each), moved)
 
     def all_within(self, points: ArrayLike, distance: SupportsFloat) -> list[Records]:
         """All triangles that may be at most `distance` from each point: a list of n records.
 
-        Fields: `lower`, `upper`, `point`, `triangle`, and `is_certain`: false of triangles that are
-        perhaps a little farther. Lists are complete, always: no other triangle is so near. Points
-        in double precision that single precision does not hold are refused.
+        Fields: `lower`, `upper`, `point`, `triangle` (of curves `polyline` and `segment`), and
+        `is_certain`: false of triangles that are perhaps a little farther. Lists are complete,
+        always: no other triangle is so near. Points in double precision that single precision does
+        not hold are refused.
         """
-        rows, moved = _points(points)
+        rows, moved = self._points(points)
         if moved is not None:
             raise QueryError("all_within: the points are not in single precision; round them first")
-        size, limit = _records.ALL_WITHIN.itemsize, _checked(distance)
-        begins, raw, _ = self._model.all_within(rows, _least(limit), size)
-        found = records(raw, _records.ALL_WITHIN)
+        ask, dtype, limit = self._model.all_within, _records.ALL_WITHIN, _checked(distance)
+        if self._facts["is_curve"]:
+            ask, dtype = self._model.all_within_on_curve, _records.ALL_WITHIN_OF_CURVE
+        begins, raw, _ = ask(rows, _least(limit), dtype.itemsize)
+        found = records(raw, dtype)
         found.is_certain[:] = found.upper.astype(np.float64) <= limit
         return _parts(begins, found)
 
@@ -584,20 +604,23 @@ def _single(numbers: NDArray[Any]) -> NDArray[np.float32]:
         return np.require(numbers, np.float32, ["C", "A"])
 
 
-def _rows(given: ArrayLike, what: str) -> NDArray[Any]:
+def _rows(given: ArrayLike, what: str, widths: tuple[int, ...] = (3,)) -> NDArray[Any]:
+    """Rows of one of these widths; zeros fill them up to the first."""
     rows = _numbers(given, what)
-    if rows.ndim == 1 and rows.shape[0] == 3:
+    if rows.ndim == 1 and rows.shape[0] in widths:
         rows = rows[None, :]
-    if rows.ndim != 2 or rows.shape[1] != 3:
-        raise QueryError(f"{what}: shape (n, 3) is wanted, not {rows.shape}")
-    return rows
+    if rows.ndim != 2 or rows.shape[1] not in widths:
+        wanted = " or ".join(f"(n, {width})" for width in widths)
+        raise QueryError(f"{what}: shape {wanted} is wanted, not {rows.shape}")
+    missing = widths[0] - rows.shape[1]
+    return np.pad(rows, [(0, 0), (0, missing)]) if missing else rows
 
 
 def _points(
-    given: ArrayLike,
+    given: ArrayLike, widths: tuple[int, ...] = (3,)
 ) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
     """The points in single precision, and bounds of how far each was moved, if any was."""
-    rows = _rows(given, "points")
+    rows = _rows(given, "points", widths)
     single = _single(rows)
     if rows.dtype.kind == "f" and rows.dtype.itemsize <= 4:
         return single, None
@@ -633,7 +656,8 @@ def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
         certain = np.where(lower > 0, Side.OUTSIDE, np.where(upper < 0, Side.INSIDE, 0))
         # A field that does not tell sides keeps its distances at 0 and above.
         kept = np.where(is_held | (found.side == certain), found.side, 0)
-        lower = np.where((found.side == 0) & (found.lower >= 0), np.maximum(lower, 0), lower)
+        is_plain = (found.side == 0) & (found.lower >= 0) & (found.upper > 0)
+        lower = np.where(is_plain, np.maximum(lower, 0), lower)
         found.side[:] = kept
     else:
         lower = np.maximum(lower, np.float32(0))
@@ -662,8 +686,8 @@ def _asked(
     found[is_near] = near[is_near]
     found.verdict[is_open] = Verdict.UNDECIDED
     found.ended[is_open] = Ended.RESOLUTION
-    witness = "triangle" if "triangle" in (found.dtype.names or ()) else "triangles"
-    found[witness][is_open] = -1
+    for witness in {"triangle", "triangles", "polyline", "segment"} & {*(found.dtype.names or ())}:
+        found[witness][is_open] = -1
     return found
 
 

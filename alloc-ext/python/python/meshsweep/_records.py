@@ -8,12 +8,17 @@ import numpy as np
 _INTERVAL = [("lower", "f4"), ("upper", "f4")]
 _END = [("ended", "u1"), ("work", "u4")]
 _POINT = ("point", "f4", 3)
+_SEGMENT = [("polyline", "i8"), ("segment", "i8")]
 
 CLOSEST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), *_END])
-CLOSEST_ON_CURVE = np.dtype(
-    [*_INTERVAL, _POINT, ("polyline", "i8"), ("segment", "i8"), ("safe_motion", "f4"), *_END]
-)
+CLOSEST_ON_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END])
 SIGNED = np.dtype([*_INTERVAL, ("side", "i1"), _POINT, ("triangle", "i8"), *_END])
+SIGNED_OF_FENCE = np.dtype(
+    [*_INTERVAL, ("side", "i1"), _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END]
+)
+WITHIN_OF_CURVE = np.dtype([("verdict", "u1"), *_SEGMENT, *_END])
+NEAREST_ON_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT])
+ALL_WITHIN_OF_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT, ("is_certain", "?")])
 WITHIN = np.dtype([("verdict", "u1"), ("triangle", "i8"), *_END])
 NEAREST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8")])
 ALL_WITHIN = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), ("is_certain", "?")])
