@@ -74,6 +74,10 @@ impl Model {
         self.opened.borrow_dependent()
     }
 
+    pub fn raw(&self) -> &[u8] {
+        self.opened.borrow_owner()
+    }
+
     /// The box of what is stored, and how far the input may be beside that.
     fn stored_bounds(&self) -> Option<([[f32; 3]; 2], f32)> {
         let of_tree = |tree: &Bvh<'_>| (tree.bounds(), tree.surface_error());
@@ -164,7 +168,7 @@ impl Model {
 
     /// The blob's bytes.
     fn bytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        PyBytes::new(py, self.opened.borrow_owner())
+        PyBytes::new(py, self.raw())
     }
 
     /// Topics and sentences of the report.

@@ -43,10 +43,12 @@ __all__ = [
     "BuildError",
     "Ended",
     "Facing",
+    "Finding",
     "MeshsweepError",
     "Model",
     "NotServedError",
     "Note",
+    "Proof",
     "QueryError",
     "Side",
     "TightHull",
@@ -54,9 +56,11 @@ __all__ = [
     "Verdict",
     "build",
     "load",
+    "verify",
 ]
 
 Records = np.recarray[Any, Any]
+Mesh = str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Any
 Progress = bool | Callable[[str, float], Any] | None
 
 
@@ -117,7 +121,7 @@ class Triboxes(NamedTuple):
 
 
 def build(
-    mesh: str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Any,
+    mesh: Mesh,
     for_: str | Iterable[str] = (),
     *,
     progress: Progress = None,
@@ -176,16 +180,66 @@ def build(
         "closed": closed,
     }
     with _Bar(progress) as tell:
-        if isinstance(mesh, (str, os.PathLike)):
-            return Model(_meshsweep.build_file(os.fspath(mesh), options, tell))
-        vertices, faces = _arrays_of(mesh)
-        return Model(_meshsweep.build_mesh(vertices, faces, options, tell))
+        return Model(_meshsweep.build(_given(mesh), options, tell))
 
 
 def load(file: str | os.PathLike[str]) -> Model:
     """The model of a blob in a file. Every byte is checked: raises `BlobError`."""
     with open(file, "rb") as opened:
         return Model(opened.read())
+
+
+class Finding(NamedTuple):
+    """A claim of a model, and what came of its proof."""
+
+    structure: str
+    """As "box tree"."""
+    outcome: str
+    """ "proved", "failed", or "not proved": neither the claim nor its opposite."""
+    text: str
+    """What was proved; else what does not hold, with its place, or why there is no proof."""
+    counts: dict[str, int]
+    """What was counted on the way."""
+
+
+class Proof(NamedTuple):
+    """What came of the proofs of a model. Falsy if any claim is open."""
+
+    proved: list[Finding]
+    open: list[Finding]
+    """Those that failed, and those without a proof."""
+
+    def __bool__(self) -> bool:
+        return bool(self.proved) and not self.open
+
+
+def verify(
+    model: Model,
+    mesh: Mesh,
+    *,
+    unit: str | None = None,
+    frames: Iterable[str | os.PathLike[str]] = (),
+) -> Proof:
+    """Proves what a model claims of the mesh, or of the curves, that it was built from.
+
+    By code of its own: a parser, exact arithmetic and a replay that share no code with the build
+    or the questions. `mesh`, `unit` and `frames` are those of `build`. The claims: the mesh is that
+    of the file but for repairs; boxes, hulls and triboxes hold the mesh; stated errors are bounds.
+
+    `if verify(model, mesh)` is true only if all is proved. Raises `BuildError` if the mesh is
+    refused. Ctrl-C is seen at the end: the proofs take some times as long as the build.
+    """
+    if not isinstance(model, Model):
+        raise QueryError(f"a Model is wanted, not {type(model).__name__}")
+    files = [os.fspath(frame) for frame in frames]
+    found = [
+        Finding(structure, outcome, text, dict(counts))
+        for structure, outcome, text, counts in _meshsweep.verify(
+            model._model, _given(mesh), unit, files
+        )
+    ]
+    proved = [finding for finding in found if finding.outcome == "proved"]
+    return Proof(proved, [finding for finding in found if finding.outcome != "proved"])
 
 
 class Model:
@@ -559,8 +613,10 @@ class Model:
         return [self._model.hull_level(level) for level in range(self._model.hull_levels())]
 
 
-def _arrays_of(mesh: Any) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """Vertices and triangles of whatever `build` takes."""
+def _given(mesh: Any) -> str | tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """The file, or vertices and triangles, of whatever `build` takes."""
+    if isinstance(mesh, (str, os.PathLike)):
+        return os.fspath(mesh)
     if hasattr(mesh, "to_geometry") and not hasattr(mesh, "faces"):
         raise BuildError("a scene is no mesh: give scene.to_geometry()")
     pair = (mesh.vertices, mesh.faces) if hasattr(mesh, "faces") else mesh

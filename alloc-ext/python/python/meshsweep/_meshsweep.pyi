@@ -14,6 +14,7 @@ _Records: TypeAlias = NDArray[np.uint8]
 _Rows: TypeAlias = NDArray[np.float32]
 _Many: TypeAlias = tuple[NDArray[np.uint64], _Records, NDArray[np.bool_]]
 _Mesh: TypeAlias = tuple[NDArray[np.float32], NDArray[np.uint32]]
+_Given: TypeAlias = str | tuple[NDArray[np.float64], NDArray[np.uint32]]
 _Tell: TypeAlias = Callable[[str, float], Any] | None
 
 class _Facts(TypedDict):
@@ -73,10 +74,7 @@ class Model:
     ) -> _Records: ...
 
 def words_of_for() -> list[str]: ...
-def build_file(file: str, options: dict[str, Any], progress: _Tell) -> Model: ...
-def build_mesh(
-    vertices: NDArray[np.float64],
-    triangles: NDArray[np.uint32],
-    options: dict[str, Any],
-    progress: _Tell,
-) -> Model: ...
+def build(mesh: _Given, options: dict[str, Any], progress: _Tell) -> Model: ...
+def verify(
+    model: Model, mesh: _Given, unit: str | None, frames: list[str]
+) -> list[tuple[str, str, str, list[tuple[str, int]]]]: ...
