@@ -10,6 +10,7 @@ mod pairs;
 mod pool;
 mod record;
 mod rows;
+mod trade;
 mod triboxes;
 mod verify;
 
@@ -23,6 +24,8 @@ mod _meshsweep {
     use crate::error::{BlobError, BuildError, MeshsweepError, NotServedError, QueryError};
     #[pymodule_export]
     use crate::model::Model;
+    #[pymodule_export]
+    use crate::trade::trade;
     #[pymodule_export]
     use crate::verify::verify;
 }

@@ -36,6 +36,11 @@ class _Triboxes(TypedDict):
     is_solid: bool
     distance: float | None
 
+class _Measured(TypedDict):
+    rows: list[dict[str, Any]]
+    not_built: list[tuple[str, str]]
+    needles: float
+
 class Model:
     def __init__(self, bytes: bytes) -> None: ...
     def bytes(self) -> bytes: ...
@@ -75,6 +80,15 @@ class Model:
 
 def words_of_for() -> list[str]: ...
 def build(mesh: _Given, options: dict[str, Any], progress: _Tell) -> Model: ...
+def trade(
+    mesh: _Given,
+    word: str,
+    at: str | list[list[float]],
+    count: int,
+    unit: str | None,
+    closed: bool,
+    progress: _Tell,
+) -> _Measured: ...
 def verify(
     model: Model, mesh: _Given, unit: str | None, frames: list[str]
 ) -> list[tuple[str, str, str, list[tuple[str, int]]]]: ...
