@@ -6,6 +6,7 @@ mod curve;
 mod error;
 mod mesh;
 mod model;
+mod moves;
 mod pairs;
 mod pool;
 mod record;

@@ -10,7 +10,9 @@ use meshsweep::distances::{Closest, Distances, Element, has_sides, signed_distan
 use meshsweep::hull::{enclosing_input, mesh_of, sticks_out_note};
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::hull_mesh;
-use meshsweep_core::{Blob, Budget, Bvh, Curve, Facing, Neighbor, ScratchEntry, TriangleHit};
+use meshsweep_core::{
+    Blob, Budget, Bvh, Curve, Ended, Facing, FirstHit, Neighbor, ScratchEntry, TriangleHit,
+};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -142,6 +144,18 @@ fn put_element(put: &mut Put<'_>, element: Option<Element>, is_curve: bool) {
         Some(Element::Triangle(triangle)) => _ = put.number(Some(triangle)),
         None => _ = put.number(None),
     }
+}
+
+pub fn put_first_hit(mut put: Put<'_>, found: &FirstHit) {
+    let verdict = match (found.is_clear(), found.ended) {
+        (true, _) => 0,
+        (_, Ended::Exact) => 1,
+        _ => 2,
+    };
+    put.byte(verdict).interval(found.t);
+    put.floats(&found.hit.map_or([f32::NAN; 3], |hit| hit.point));
+    put.number(found.hit.and_then(|hit| hit.triangle)).ended(found.ended);
+    put.count(found.work.total());
 }
 
 /// Scratch memory that a structure is asked with.
@@ -379,26 +393,13 @@ impl Model {
         let tree = self.tree("segment")?;
         ask(py, &rows, size, || {
             let mut scratch = scratch(tree.scratch_entries());
-            move |[ax, ay, az, bx, by, bz], mut put| {
+            move |[ax, ay, az, bx, by, bz], put| {
                 let (a, b) = ([ax, ay, az], [bx, by, bz]);
                 let found = match is_ray {
                     true => tree.first_hit_of_ray(a, b, facing, budget, &mut scratch),
                     false => tree.first_hit(a, b, facing, budget, &mut scratch),
                 }?;
-                let clear = found.is_clear();
-                let is_proved = found.ended == meshsweep_core::Ended::Exact;
-                put.byte(if clear {
-                    0
-                } else if is_proved {
-                    1
-                } else {
-                    2
-                })
-                .interval(found.t);
-                let hit = found.hit;
-                put.floats(&hit.map_or([f32::NAN; 3], |hit| hit.point));
-                put.number(hit.and_then(|hit| hit.triangle)).ended(found.ended);
-                put.count(found.work.total());
+                put_first_hit(put, &found);
                 Ok(())
             }
         })

@@ -631,6 +631,64 @@ class Model:
         found = self._model.meets(_other(other), _poses(poses), None, size)
         return records(found, _records.MEETS)
 
+    def first_contact(
+        self,
+        starts: ArrayLike,
+        ends: ArrayLike,
+        *,
+        radius: SupportsFloat = 0.0,
+        tool: ArrayLike = (0.0, 0.0, 0.0),
+        steps: int | None = None,
+    ) -> Records:
+        """Where a convex tool that is carried straight from each start to its end first meets the
+        surface. Needs "segment".
+
+        The tool is all points within `radius` of the hull of its 1 to 32 corners, shape (k, 3),
+        relative to start and end: one corner is a ball, two are a capsule. To keep a distance, add
+        it to the radius.
+
+        Fields: those of `first_hit`. `NO` where it is proved that no point of the tool touches the
+        mesh at any instant, `YES` where it certainly meets the mesh by `t_upper`; before `t_lower`
+        it is clear. `point` is of the triangle that may stop it. Only the surface counts. Starts,
+        ends and corners are rounded to single precision; of their sums nothing is lost, but a tool
+        without radius may stay `UNDECIDED`.
+        """
+        size, moves = _records.FIRST_HIT.itemsize, _pairs(starts, ends)
+        corners = _single(_rows(tool, "tool"))
+        if not 1 <= len(corners) <= 32:
+            raise QueryError(f"tool: 1 to 32 corners are wanted, not {len(corners)}")
+        rounded = _least(_checked(radius, "radius"))
+        found = self._model.first_contact(moves, corners, rounded, steps, size)
+        return records(found, _records.FIRST_HIT)
+
+    def first_contact_of(
+        self,
+        other: Model,
+        from_poses: ArrayLike,
+        to_poses: ArrayLike,
+        *,
+        keep: SupportsFloat = 0.0,
+        straight: bool = False,
+    ) -> Records:
+        """How far another model may move before it is within `keep` of this surface.
+
+        Poses as those of `distance_to`, one of each for a move. The way from one to the other is a
+        screw, on which the model stays rigid; with `straight` each point goes along a straight
+        line, and a model that turns shrinks on the way. Both need "segment".
+
+        Fields: `verdict`: `NO` where it is proved that the surfaces are farther apart than `keep`
+        during the whole move, else `UNDECIDED`; `clear_until`, the part of the move, 0 to 1, before
+        which they are, infinite if they always are; `points`, of each surface, in this frame, and
+        their `triangles`, which may stop the move; `ended`; `work`.
+        """
+        begins, ends = _poses(from_poses), _poses(to_poses)
+        if len(begins) != len(ends):
+            raise QueryError(f"{len(begins)} poses to begin at, {len(ends)} to end at")
+        size, limit = _records.MOVED.itemsize, _least(_checked(keep, "keep"))
+        moves = np.hstack([begins, ends])
+        found = self._model.first_contact_of(_other(other), moves, straight, limit, size)
+        return records(found, _records.MOVED)
+
     def field_distance(self, points: ArrayLike) -> Records:
         """Bounds of the distance by the distance field: the bits that a Cortex-M computes.
 
@@ -850,15 +908,15 @@ def _down(values: NDArray[np.float64]) -> NDArray[np.float32]:
     return np.maximum(np.nextafter(values.astype(np.float32), np.float32(-np.inf)), np.float32(0))
 
 
-def _checked(distance: SupportsFloat) -> float:
+def _checked(distance: SupportsFloat, what: str = "distance") -> float:
     try:
         value = float(distance)
     except (TypeError, ValueError):
-        raise QueryError(f"distance: one number is wanted, not {distance!r}") from None
+        raise QueryError(f"{what}: one number is wanted, not {distance!r}") from None
     if not (np.isfinite(value) and value >= 0):
-        raise QueryError(f"distance: {distance} is negative or not finite")
+        raise QueryError(f"{what}: {distance} is negative or not finite")
     if value > float(np.finfo(np.float32).max):
-        raise QueryError(f"distance: {distance} is beyond single precision")
+        raise QueryError(f"{what}: {distance} is beyond single precision")
     return value
 
 

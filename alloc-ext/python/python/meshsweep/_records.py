@@ -29,6 +29,12 @@ FIRST_HIT = np.dtype(
 ALL_HITS = np.dtype([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")])
 FIELD = np.dtype([*_INTERVAL, ("side", "i1"), ("gradient", "f4", 3)])
 PAIR = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END])
+MOVED = np.dtype(
+    [
+        *[("verdict", "u1"), ("clear_until", "f4")],
+        *[("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END],
+    ]
+)
 MEETS = np.dtype([("verdict", "u1"), ("triangles", "i8", 2), *_END])
 TRIBOX = np.dtype([("lower", "f4"), ("tribox", "i8"), *_END])
 TRIBOX_HIT = np.dtype([("verdict", "u1"), ("t_lower", "f4"), ("tribox", "i8"), *_END])
