@@ -158,6 +158,6 @@ pub fn build(
     let mesh = mesh.taken()?;
     options.build(py, progress, |builder| match mesh {
         Taken::File(file) => builder.build_file(file),
-        Taken::Mesh(mesh) => builder.build(mesh),
+        Taken::Mesh(mesh) => builder.build(*mesh),
     })
 }

@@ -4,19 +4,15 @@ use crate::error::missing;
 use crate::model::{Model, ROOM, budget, scratch};
 use crate::record::Put;
 use crate::rows::{Lists, Records, Rows, ask, ask_many};
-use meshsweep_core::{Budget, Curve, CurveNeighbor, CurveSegment};
+use meshsweep_core::{Budget, Curve, CurveNeighbor};
 use pyo3::prelude::*;
 
 /// More scratch entries than a curve needs: with these, searches go best first.
 pub const BEST_FIRST: usize = 256;
 
-pub fn put_segment(put: &mut Put<'_>, at: Option<CurveSegment>) {
-    put.number(at.map(|at| at.polyline)).number(at.map(|at| at.segment));
-}
-
 fn put_neighbor(put: &mut Put<'_>, near: &CurveNeighbor) {
     put.interval(near.distance()).floats(&near.point());
-    put_segment(put, Some(near.segment()));
+    put.segment(Some(near.segment()));
 }
 
 impl Model {
@@ -42,8 +38,10 @@ impl Model {
                 let found = fence.signed_distance(point, budget, &mut scratch)?;
                 let near = found.closest;
                 put.interval(found.distance).side(found.side).floats(&near.point);
-                put_segment(&mut put, Some(near.segment));
-                put.floats(&[near.safe_motion]).ended(near.ended).count(near.work.total());
+                put.segment(Some(near.segment))
+                    .floats(&[near.safe_motion])
+                    .ended(near.ended)
+                    .count(near.work.total());
                 Ok(())
             }
         })

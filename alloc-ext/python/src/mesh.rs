@@ -18,7 +18,7 @@ pub enum Given<'py> {
 /// The same for work without the interpreter's lock.
 pub enum Taken {
     File(PathBuf),
-    Mesh(RawMesh),
+    Mesh(Box<RawMesh>),
 }
 
 impl Given<'_> {
@@ -28,7 +28,7 @@ impl Given<'_> {
             Given::Arrays((vertices, triangles)) => {
                 let vertices = vertices.as_slice()?.as_chunks::<3>().0.to_vec();
                 let triangles = triangles.as_slice()?.as_chunks::<3>().0.to_vec();
-                Taken::Mesh(RawMesh::from_f64(vertices, triangles))
+                Taken::Mesh(Box::new(RawMesh::from_f64(vertices, triangles)))
             }
         })
     }
@@ -45,7 +45,7 @@ impl Taken {
     pub fn source(self, unit: Option<Unit>) -> PyResult<Source> {
         let source = match self {
             Taken::File(file) => Source::of_file(&file, unit),
-            Taken::Mesh(mesh) => Source::of(mesh, unit),
+            Taken::Mesh(mesh) => Source::of(*mesh, unit),
         };
         source.map_err(|error| of_build(&error))
     }

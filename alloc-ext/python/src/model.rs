@@ -1,18 +1,16 @@
 //! An opened blob, and its questions about points and segments.
 
-use crate::curve::{BEST_FIRST, put_segment};
+use crate::curve::BEST_FIRST;
 use crate::error::{MeshsweepError, QueryError, missing, of_open};
 use crate::record::{Put, ended};
 use crate::rows::{Lists, Records, Rows, ask, ask_many, in_blocks, rows};
 use meshsweep::builder::Built;
 use meshsweep::bvh::{BATCH, FastBvh, closest_points_until_refused};
-use meshsweep::distances::{Closest, Distances, Element, has_sides, signed_distance};
+use meshsweep::distances::{Distances, has_sides, signed_distance};
 use meshsweep::hull::{enclosing_input, mesh_of, sticks_out_note};
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::hull_mesh;
-use meshsweep_core::{
-    Blob, Budget, Bvh, Curve, Ended, Facing, FirstHit, Neighbor, ScratchEntry, TriangleHit,
-};
+use meshsweep_core::{Blob, Budget, Bvh, Curve, Facing, Neighbor, ScratchEntry, TriangleHit};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -137,40 +135,10 @@ fn grown(bounds: [[f32; 3]; 2], error: f32) -> [[f32; 3]; 2] {
     ]
 }
 
-fn put_element(put: &mut Put<'_>, element: Option<Element>, is_curve: bool) {
-    match element {
-        Some(Element::Segment(at)) => put_segment(put, Some(at)),
-        None if is_curve => put_segment(put, None),
-        Some(Element::Triangle(triangle)) => _ = put.number(Some(triangle)),
-        None => _ = put.number(None),
-    }
-}
-
-pub fn put_first_hit(mut put: Put<'_>, found: &FirstHit) {
-    let verdict = match (found.is_clear(), found.ended) {
-        (true, _) => 0,
-        (_, Ended::Exact) => 1,
-        _ => 2,
-    };
-    put.byte(verdict).interval(found.t);
-    put.floats(&found.hit.map_or([f32::NAN; 3], |hit| hit.point));
-    put.number(found.hit.and_then(|hit| hit.triangle)).ended(found.ended);
-    put.count(found.work.total());
-}
-
 /// Scratch memory that a structure is asked with.
 fn scratch_of(structure: &Distances<'_>) -> Vec<ScratchEntry> {
     let more = if matches!(structure, Distances::Curve(_)) { BEST_FIRST } else { 0 };
     scratch(structure.scratch_entries() + more)
-}
-
-fn put_closest(mut put: Put<'_>, found: &Closest) {
-    put.interval(found.distance).floats(&found.point);
-    put_element(&mut put, found.element, found.safe_motion.is_some());
-    if let Some(safe_motion) = found.safe_motion {
-        put.floats(&[safe_motion]);
-    }
-    put.ended(found.ended).count(found.work.total());
 }
 
 #[pymethods]
@@ -234,9 +202,9 @@ impl Model {
         let Distances::Tree(tree) = structure else {
             return ask(py, &points, size, || {
                 let mut scratch = scratch_of(&structure);
-                move |[x, y, z], put| {
+                move |[x, y, z], mut put| {
                     let found = structure.closest_point([x, y, z], budget, &mut scratch)?;
-                    put_closest(put, &found);
+                    put.closest(&found);
                     Ok(())
                 }
             });
@@ -249,7 +217,7 @@ impl Model {
             let begin = block.start;
             let (found, refused) = closest_points_until_refused(&tree, &rows[block], &budget);
             for (found, record) in found.into_iter().zip(records.chunks_mut(size)) {
-                put_closest(Put::new(record), &found.into());
+                Put::new(record).closest(&found.into());
             }
             refused.map_or(Ok(()), |refused| Err((begin + refused.index, refused.error)))
         })?;
@@ -297,7 +265,7 @@ impl Model {
             move |[x, y, z, distance], mut put| {
                 let found = structure.any_within([x, y, z], distance, budget, &mut scratch)?;
                 put.verdict(found.verdict);
-                put_element(&mut put, found.element, is_curve);
+                put.element(found.element, is_curve);
                 put.ended(ended(found.verdict)).count(found.work.total());
                 Ok(())
             }
@@ -393,13 +361,13 @@ impl Model {
         let tree = self.tree("segment")?;
         ask(py, &rows, size, || {
             let mut scratch = scratch(tree.scratch_entries());
-            move |[ax, ay, az, bx, by, bz], put| {
+            move |[ax, ay, az, bx, by, bz], mut put| {
                 let (a, b) = ([ax, ay, az], [bx, by, bz]);
                 let found = match is_ray {
                     true => tree.first_hit_of_ray(a, b, facing, budget, &mut scratch),
                     false => tree.first_hit(a, b, facing, budget, &mut scratch),
                 }?;
-                put_first_hit(put, &found);
+                put.first_hit(&found);
                 Ok(())
             }
         })

@@ -1,7 +1,7 @@
 //! Questions about moves: of a convex tool, and of another model.
 
 use crate::error::of_query;
-use crate::model::{Model, budget, put_first_hit, scratch};
+use crate::model::{Model, budget, scratch};
 use crate::pairs::pose;
 use crate::rows::{Records, Rows, ask, rows};
 use meshsweep_core::{Bvh, Ended, FirstHit, Motion, ScratchEntry, Solid};
@@ -42,7 +42,7 @@ impl Model {
         Solid::new(tool, radius).map_err(|error| of_query(None, error))?;
         ask(py, &moves, size, || {
             let mut scratch = scratch(tree.scratch_entries());
-            move |[ax, ay, az, bx, by, bz], put| {
+            move |[ax, ay, az, bx, by, bz], mut put| {
                 let (from, off) = placed(tool, [ax, ay, az]);
                 let (to, off_there) = placed(tool, [bx, by, bz]);
                 let mut ask = |radius| {
@@ -51,7 +51,7 @@ impl Model {
                 };
                 let moved = off.max(off_there);
                 if moved <= 0.0 {
-                    put_first_hit(put, &ask(radius)?);
+                    put.first_hit(&ask(radius)?);
                     return Ok(());
                 }
                 // The tool is within the larger one, and holds the smaller one, at every instant.
@@ -69,7 +69,7 @@ impl Model {
                         (ended, _) => ended,
                     };
                 }
-                put_first_hit(put, &found);
+                put.first_hit(&found);
                 Ok(())
             }
         })

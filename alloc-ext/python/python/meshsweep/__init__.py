@@ -270,11 +270,11 @@ class TradeRow(NamedTuple):
     build: str
     """Options of `meshsweep build` that give it."""
     error: float | None
-    """The widest interval that was found: of other queries it may be wider, and holds. `None` if
-    there are lower bounds or verdicts alone."""
+    """The widest interval that was found: of other queries it may be wider, and holds. `None` of
+    lower bounds."""
     median_error: float | None
     undecided: int
-    """Segments, verdicts or sides that stayed undecided."""
+    """Segments that stayed undecided."""
     instructions: dict[str, Instructions]
     """By the name of the processor. One without fitted costs is missing."""
     flash: int
@@ -306,13 +306,12 @@ def trade(
     count: int = 1000,
     progress: Progress = None,
     unit: str | None = None,
-    closed: bool = False,
 ) -> Trade:
     """Measures what each setting of each structure guarantees and costs: `meshsweep trade`.
 
-    `mesh`, `unit`, `closed` as of `build`. `for_` is "closest" or, of a mesh, "segment". `at` is
-    "near" the surface, "far", or a "path", of `count` points or segments; or points of shape
-    (n, 3), segments of shape (n, 2, 3), which are rounded to single precision.
+    `mesh` and `unit` as of `build`. `for_` is "closest" or "segment". `at` is "near" the surface,
+    "far", or a "path", of `count` points or segments; or points of shape (n, 3), segments of shape
+    (n, 2, 3), which are rounded to single precision.
 
     Cost: a build for each structure, and each query against all triangles in double precision.
     `progress` is called as that of `build`. Its exception, and Ctrl-C, are seen at the end.
@@ -329,7 +328,7 @@ def trade(
     if count < 1:
         raise QueryError("count: at least 1 is wanted")
     with _Bar(progress) as tell:
-        found = _meshsweep.trade(_given(mesh), for_, places, count, unit, closed, tell)
+        found = _meshsweep.trade(_given(mesh), for_, places, count, unit, tell)
     rows = []
     for row in found["rows"]:
         boards = [Instructions(**board) for board in row["instructions"]]

@@ -92,7 +92,6 @@ def trade(
     at: str | list[list[float]],
     count: int,
     unit: str | None,
-    closed: bool,
     progress: _Tell,
 ) -> _Measured: ...
 def verify(
