@@ -33,13 +33,13 @@ impl Model {
         py: Python<'py>,
         moves: Rows<'py>,
         tool: Rows<'py>,
-        radius: f32,
+        radius: f64,
         steps: Option<u32>,
         size: usize,
     ) -> PyResult<Records<'py>> {
         let (tree, budget) = (self.tree("segment")?, budget(0.0, 0.0, steps));
         let tool = rows::<3>(&tool)?;
-        Solid::new(tool, radius).map_err(|error| of_query(None, error))?;
+        Solid::new(tool, radius as f32).map_err(|error| of_query(None, error))?;
         ask(py, &moves, size, || {
             let mut scratch = scratch(tree.scratch_entries());
             move |[ax, ay, az, bx, by, bz], mut put| {
@@ -50,14 +50,14 @@ impl Model {
                     tree.solid_first_contact(&from, &to, budget, &mut scratch)
                 };
                 let moved = off.max(off_there);
-                if moved <= 0.0 {
-                    put.first_hit(&ask(radius)?);
+                if moved <= 0.0 && f64::from(radius as f32) == radius {
+                    put.first_hit(&ask(radius as f32)?);
                     return Ok(());
                 }
                 // The tool is within the larger one, and holds the smaller one, at every instant.
-                let mut found = ask(((f64::from(radius) + moved) as f32).next_up())?;
+                let mut found = ask(((radius + moved) as f32).next_up())?;
                 if !found.is_clear() {
-                    let less = ((f64::from(radius) - moved) as f32).next_down();
+                    let less = ((radius - moved) as f32).next_down();
                     let inner = if less >= 0.0 { Some(ask(less)?) } else { None };
                     let is_met =
                         |inner: &FirstHit| inner.hit.is_some() && inner.ended == Ended::Exact;

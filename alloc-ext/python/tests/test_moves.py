@@ -46,6 +46,10 @@ def test_a_ball_meets_the_pole_when_it_is_there():
         assert found.verdict == Verdict.YES
         assert found.t_lower <= 1 - radius / 4 <= found.t_upper < found.t_lower + 1e-4
         assert np.linalg.norm(found.point - [0, 0, 1]) < 1e-3
+    exact = meshsweep.build(sphere(), "segment", vertex_bits=32)
+    for radius, wrong in [(0.25 - 1e-12, Verdict.YES), (0.25 + 1e-12, Verdict.NO)]:
+        (found,) = exact.first_contact([0, 0, 5], [0, 0, 1.25], radius=radius)
+        assert found.verdict != wrong
     for tool, words in [(np.zeros((33, 3)), "1 to 32"), (np.zeros((2, 2)), r"\(n, 3\)")]:
         with pytest.raises(meshsweep.QueryError, match=words):
             part.first_contact([0, 0, 5], [0, 0, 1], tool=tool)

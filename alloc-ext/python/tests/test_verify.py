@@ -9,7 +9,7 @@ ALL = "closest,segment,cull,winding,hull,tight,triboxes,sdf"
 
 
 def test_every_structure_is_proved_of_its_mesh_and_fails_of_another():
-    vertices, triangles = sphere()
+    vertices, triangles = sphere(5, 6)
     options = {"tight_faces": [20], "triboxes": 4, "sdf_bytes": 2048}
     part = meshsweep.build((vertices, triangles), ALL, **options)
     proof = meshsweep.verify(part, (vertices, triangles))

@@ -8,9 +8,8 @@
 
 Lengths are in the mesh's unit. Questions take rows of an array of shape (n, 3) and give records of
 shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. Of curves in the plane
-z = 0 they take shape (n, 2) too. They run on all cores and
-without the interpreter's lock; Ctrl-C ends them. The bits of the answers are those that firmware
-computes.
+z = 0 they take shape (n, 2) too. They run on all cores and without the interpreter's lock; Ctrl-C
+ends them. The bits of the answers are those that firmware computes.
 
 **Rounding.** Questions are asked in single precision. Points in double precision are rounded first,
 and intervals of distances, sides and verdicts about one distance are widened by that, so that they
@@ -321,9 +320,11 @@ def trade(
         places = at
     else:
         given = _numbers(at, "at")
-        shape = (2, 3) if for_ == "segment" else (3,)
-        if given.shape[1:] != shape or not np.all(np.isfinite(_single(given))):
-            raise QueryError(f"at: finite numbers of shape (n, {shape}) are wanted")
+        shape, wanted = ((2, 3), "(n, 2, 3)") if for_ == "segment" else ((3,), "(n, 3)")
+        if given.shape[1:] != shape:
+            raise QueryError(f"at: shape {wanted} is wanted, not {given.shape}")
+        if not np.all(np.isfinite(_single(given))):
+            raise QueryError("at: a number is not finite, or beyond single precision")
         places = _single(given).reshape(-1, 3).tolist()
     if count < 1:
         raise QueryError("count: at least 1 is wanted")
@@ -649,15 +650,15 @@ class Model:
         Fields: those of `first_hit`. `NO` where it is proved that no point of the tool touches the
         mesh at any instant, `YES` where it certainly meets the mesh by `t_upper`; before `t_lower`
         it is clear. `point` is of the triangle that may stop it. Only the surface counts. Starts,
-        ends and corners are rounded to single precision; of their sums nothing is lost, but a tool
-        without radius may stay `UNDECIDED`.
+        ends and corners are rounded to single precision. The rounding of their sums, and of the
+        radius, is in the answer: a tool without radius may stay `UNDECIDED` where it hits.
         """
         size, moves = _records.FIRST_HIT.itemsize, _pairs(starts, ends)
         corners = _single(_rows(tool, "tool"))
         if not 1 <= len(corners) <= 32:
             raise QueryError(f"tool: 1 to 32 corners are wanted, not {len(corners)}")
-        rounded = _least(_checked(radius, "radius"))
-        found = self._model.first_contact(moves, corners, rounded, steps, size)
+        limit = _checked(radius, "radius")
+        found = self._model.first_contact(moves, corners, limit, steps, size)
         return records(found, _records.FIRST_HIT)
 
     def first_contact_of(
