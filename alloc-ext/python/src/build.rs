@@ -1,14 +1,14 @@
 //! From a file or arrays to a model. Options have the names and defaults of [`Builder`].
 
 use crate::error::{BuildError, of_build};
+use crate::mesh::{Given, Taken};
 use crate::model::Model;
 use crate::pool::on_all_cores_until_stopped;
 use meshsweep::Builder;
 use meshsweep::builder::{Built, For, SdfKind, Stage};
-use meshsweep::mesh::{RawMesh, Unit};
+use meshsweep::mesh::Unit;
 use meshsweep::surface::VertexBits;
 use meshsweep::tribox::Measure;
-use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -39,11 +39,21 @@ pub struct Options {
 }
 
 /// The one of `all` with this name.
-fn named<T: Copy>(all: &[T], name: fn(T) -> &'static str, option: &str, word: &str) -> PyResult<T> {
+pub fn named<T: Copy>(
+    all: &[T],
+    name: fn(T) -> &'static str,
+    option: &str,
+    word: &str,
+) -> PyResult<T> {
     all.iter().copied().find(|&one| name(one) == word).ok_or_else(|| {
         let names: Vec<&str> = all.iter().map(|&one| name(one)).collect();
         BuildError::new_err(format!("{option}: no {word:?}; there are {}", names.join(", ")))
     })
+}
+
+/// The unit with this symbol, if there is one.
+pub fn unit_named(word: Option<&str>) -> PyResult<Option<Unit>> {
+    word.map(|word| named(&Unit::ALL, Unit::symbol, "unit", word)).transpose()
 }
 
 impl Options {
@@ -62,8 +72,8 @@ impl Options {
         for word in &self.serve {
             builder = builder.serve(named(&For::ALL, For::name, "for_", word)?);
         }
-        if let Some(word) = &self.unit {
-            builder = builder.unit(named(&Unit::ALL, Unit::symbol, "unit", word)?);
+        if let Some(unit) = unit_named(self.unit.as_deref())? {
+            builder = builder.unit(unit);
         }
         if let Some(word) = &self.orient {
             builder = builder.orient(named(
@@ -137,28 +147,17 @@ pub fn words_of_for() -> Vec<&'static str> {
     For::ALL.map(For::name).to_vec()
 }
 
-/// Builds the model of a mesh file, or of a CSV file of curves.
+/// Builds the model of a mesh, or of a CSV file of curves.
 #[pyfunction]
-pub fn build_file(
+pub fn build(
     py: Python<'_>,
-    file: PathBuf,
+    mesh: Given<'_>,
     options: Options,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Model> {
-    options.build(py, progress, |builder| builder.build_file(file))
-}
-
-/// Builds the model of vertices and triangles.
-#[pyfunction]
-pub fn build_mesh(
-    py: Python<'_>,
-    vertices: PyReadonlyArray2<'_, f64>,
-    triangles: PyReadonlyArray2<'_, u32>,
-    options: Options,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<Model> {
-    let vertices = vertices.as_slice()?.as_chunks::<3>().0.to_vec();
-    let triangles = triangles.as_slice()?.as_chunks::<3>().0.to_vec();
-    let mesh = RawMesh::from_f64(vertices, triangles);
-    options.build(py, progress, |builder| builder.build(mesh))
+    let mesh = mesh.taken()?;
+    options.build(py, progress, |builder| match mesh {
+        Taken::File(file) => builder.build_file(file),
+        Taken::Mesh(mesh) => builder.build(*mesh),
+    })
 }

@@ -2,21 +2,31 @@
 //! out; `python/meshsweep` gives them names.
 
 mod build;
+mod curve;
 mod error;
+mod mesh;
 mod model;
+mod moves;
 mod pairs;
 mod pool;
 mod record;
 mod rows;
+mod trade;
+mod triboxes;
+mod verify;
 
 use pyo3::prelude::*;
 
 #[pymodule]
 mod _meshsweep {
     #[pymodule_export]
-    use crate::build::{build_file, build_mesh, words_of_for};
+    use crate::build::{build, words_of_for};
     #[pymodule_export]
     use crate::error::{BlobError, BuildError, MeshsweepError, NotServedError, QueryError};
     #[pymodule_export]
     use crate::model::Model;
+    #[pymodule_export]
+    use crate::trade::trade;
+    #[pymodule_export]
+    use crate::verify::verify;
 }

@@ -1,15 +1,16 @@
 //! An opened blob, and its questions about points and segments.
 
+use crate::curve::BEST_FIRST;
 use crate::error::{MeshsweepError, QueryError, missing, of_open};
 use crate::record::{Put, ended};
 use crate::rows::{Lists, Records, Rows, ask, ask_many, in_blocks, rows};
 use meshsweep::builder::Built;
 use meshsweep::bvh::{BATCH, FastBvh, closest_points_until_refused};
-use meshsweep::distances::{Closest, Distances, Element, has_sides, signed_distance};
+use meshsweep::distances::{Distances, has_sides, signed_distance};
 use meshsweep::hull::{enclosing_input, mesh_of, sticks_out_note};
 use meshsweep::mesh::Mesh;
 use meshsweep::tight::hull_mesh;
-use meshsweep_core::{Blob, Budget, Bvh, Facing, Neighbor, ScratchEntry, TriangleHit};
+use meshsweep_core::{Blob, Budget, Bvh, Curve, Facing, Neighbor, ScratchEntry, TriangleHit};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -32,10 +33,10 @@ pub struct Model {
 }
 
 /// Room for triangles at first.
-const ROOM: usize = 64;
+pub const ROOM: usize = 64;
 
 /// Scratch memory of so many entries.
-fn scratch(entries: usize) -> Vec<ScratchEntry> {
+pub fn scratch(entries: usize) -> Vec<ScratchEntry> {
     vec![ScratchEntry::EMPTY; entries]
 }
 
@@ -69,8 +70,12 @@ impl Model {
         Ok(Self { opened, report })
     }
 
-    fn blob(&self) -> &Blob<'_> {
+    pub fn blob(&self) -> &Blob<'_> {
         self.opened.borrow_dependent()
+    }
+
+    pub fn raw(&self) -> &[u8] {
+        self.opened.borrow_owner()
     }
 
     /// The box of what is stored, and how far the input may be beside that.
@@ -130,17 +135,10 @@ fn grown(bounds: [[f32; 3]; 2], error: f32) -> [[f32; 3]; 2] {
     ]
 }
 
-fn put_closest(mut put: Put<'_>, found: &Closest) {
-    put.interval(found.distance).floats(&found.point);
-    match (found.element, found.safe_motion) {
-        (Some(Element::Segment(at)), safe) => put
-            .number(Some(at.polyline))
-            .number(Some(at.segment))
-            .floats(&[safe.unwrap_or_default()]),
-        (Some(Element::Triangle(triangle)), _) => put.number(Some(triangle)),
-        (None, _) => put.number(None),
-    };
-    put.ended(found.ended).count(found.work.total());
+/// Scratch memory that a structure is asked with.
+fn scratch_of(structure: &Distances<'_>) -> Vec<ScratchEntry> {
+    let more = if matches!(structure, Distances::Curve(_)) { BEST_FIRST } else { 0 };
+    scratch(structure.scratch_entries() + more)
 }
 
 #[pymethods]
@@ -152,7 +150,7 @@ impl Model {
 
     /// The blob's bytes.
     fn bytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        PyBytes::new(py, self.opened.borrow_owner())
+        PyBytes::new(py, self.raw())
     }
 
     /// Topics and sentences of the report.
@@ -163,7 +161,7 @@ impl Model {
     /// What the blob holds.
     fn facts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (blob, facts) = (self.blob(), PyDict::new(py));
-        let tree = blob.bvh().ok();
+        let (tree, curve) = (blob.bvh().ok(), blob.curve().ok());
         let serves = |of: fn(&Bvh<'_>) -> bool| tree.as_ref().is_some_and(of);
         let words = [
             ("closest", serves(|tree| tree.serves_distances())),
@@ -175,18 +173,21 @@ impl Model {
             ("deform", blob.deformable_hull().is_ok()),
             ("tight", blob.tight_hulls().is_ok()),
             ("triboxes", blob.triboxes().is_ok()),
-            ("curve", blob.curve().is_ok()),
+            ("curve", curve.is_some()),
             ("sdf", blob.sdf().is_ok()),
         ];
         let words: Vec<&str> = words.iter().filter(|word| word.1).map(|word| word.0).collect();
         facts.set_item("serves", words)?;
-        facts.set_item("is_curve", blob.curve().is_ok())?;
+        facts.set_item("is_curve", curve.is_some())?;
+        facts.set_item("is_flat", curve.as_ref().is_some_and(Curve::is_planar))?;
         let stored = self.stored_bounds();
         facts.set_item("stored_bounds", stored.map(|(bounds, _)| bounds))?;
         facts.set_item("bounds", stored.map(|(bounds, error)| grown(bounds, error)))?;
         facts.set_item("is_closed", tree.as_ref().map(Bvh::is_closed))?;
-        facts.set_item("has_sides", tree.as_ref().map(has_sides))?;
-        facts.set_item("surface_error", tree.as_ref().map(Bvh::surface_error))?;
+        let is_fence = || curve.as_ref().map(|curve| curve.check_fence().is_ok());
+        facts.set_item("has_sides", tree.as_ref().map(has_sides).or_else(is_fence))?;
+        let of_curve = || curve.as_ref().map(Curve::surface_error);
+        facts.set_item("surface_error", tree.as_ref().map(Bvh::surface_error).or_else(of_curve))?;
         Ok(facts)
     }
 
@@ -200,10 +201,10 @@ impl Model {
         let (structure, budget) = (self.distances()?, budget(limits.0, limits.1, limits.2));
         let Distances::Tree(tree) = structure else {
             return ask(py, &points, size, || {
-                let mut scratch = scratch(structure.scratch_entries());
-                move |[x, y, z], put| {
+                let mut scratch = scratch_of(&structure);
+                move |[x, y, z], mut put| {
                     let found = structure.closest_point([x, y, z], budget, &mut scratch)?;
-                    put_closest(put, &found);
+                    put.closest(&found);
                     Ok(())
                 }
             });
@@ -216,7 +217,7 @@ impl Model {
             let begin = block.start;
             let (found, refused) = closest_points_until_refused(&tree, &rows[block], &budget);
             for (found, record) in found.into_iter().zip(records.chunks_mut(size)) {
-                put_closest(Put::new(record), &found.into());
+                Put::new(record).closest(&found.into());
             }
             refused.map_or(Ok(()), |refused| Err((begin + refused.index, refused.error)))
         })?;
@@ -259,15 +260,13 @@ impl Model {
     ) -> PyResult<Records<'py>> {
         let (structure, budget) = (self.distances()?, budget(0.0, 0.0, steps));
         ask(py, &rows, size, || {
-            let mut scratch = scratch(structure.scratch_entries());
+            let mut scratch = scratch_of(&structure);
+            let is_curve = matches!(structure, Distances::Curve(_));
             move |[x, y, z, distance], mut put| {
                 let found = structure.any_within([x, y, z], distance, budget, &mut scratch)?;
-                let number = found.element.map(|element| match element {
-                    Element::Triangle(triangle) => triangle,
-                    Element::Segment(at) => at.segment,
-                });
-                put.verdict(found.verdict).number(number).ended(ended(found.verdict));
-                put.count(found.work.total());
+                put.verdict(found.verdict);
+                put.element(found.element, is_curve);
+                put.ended(ended(found.verdict)).count(found.work.total());
                 Ok(())
             }
         })
@@ -368,20 +367,7 @@ impl Model {
                     true => tree.first_hit_of_ray(a, b, facing, budget, &mut scratch),
                     false => tree.first_hit(a, b, facing, budget, &mut scratch),
                 }?;
-                let clear = found.is_clear();
-                let is_proved = found.ended == meshsweep_core::Ended::Exact;
-                put.byte(if clear {
-                    0
-                } else if is_proved {
-                    1
-                } else {
-                    2
-                })
-                .interval(found.t);
-                let hit = found.hit;
-                put.floats(&hit.map_or([f32::NAN; 3], |hit| hit.point));
-                put.number(hit.and_then(|hit| hit.triangle)).ended(found.ended);
-                put.count(found.work.total());
+                put.first_hit(&found);
                 Ok(())
             }
         })

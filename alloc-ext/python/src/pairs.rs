@@ -7,7 +7,7 @@ use meshsweep_core::{Bvh, Pose, ScratchEntry};
 use pyo3::prelude::*;
 
 /// A pose of a row: three rows of a matrix, each with its part of the translation.
-fn pose(row: &[f32]) -> Pose {
+pub fn pose(row: &[f32]) -> Pose {
     let entry = |at: usize| row.get(at).copied().unwrap_or_default();
     let rotation = core::array::from_fn(|r| core::array::from_fn(|c| entry(4 * r + c)));
     Pose::rigid(rotation, [3, 7, 11].map(entry))

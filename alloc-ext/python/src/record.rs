@@ -1,7 +1,8 @@
 //! Answers as packed records, in this machine's byte order. The dtypes of
 //! `python/meshsweep/_records.py` have the same fields in the same order.
 
-use meshsweep_core::{Ended, Interval, Side, Undecided, Verdict};
+use meshsweep::distances::{Closest, Element};
+use meshsweep_core::{CurveSegment, Ended, FirstHit, Interval, Side, Undecided, Verdict};
 
 /// A record that is being written.
 pub struct Put<'a>(&'a mut [u8]);
@@ -33,6 +34,39 @@ impl<'a> Put<'a> {
         self.bytes(&number.map_or(-1, i64::from).to_ne_bytes())
     }
 
+    /// Polyline and segment.
+    pub fn segment(&mut self, at: Option<CurveSegment>) -> &mut Self {
+        self.number(at.map(|at| at.polyline)).number(at.map(|at| at.segment))
+    }
+
+    pub fn element(&mut self, element: Option<Element>, is_curve: bool) -> &mut Self {
+        match element {
+            Some(Element::Segment(at)) => self.segment(Some(at)),
+            Some(Element::Triangle(triangle)) => self.number(Some(triangle)),
+            None if is_curve => self.segment(None),
+            None => self.number(None),
+        }
+    }
+
+    pub fn closest(&mut self, found: &Closest) -> &mut Self {
+        self.interval(found.distance).floats(&found.point);
+        self.element(found.element, found.safe_motion.is_some());
+        self.floats(found.safe_motion.as_slice());
+        self.ended(found.ended).count(found.work.total())
+    }
+
+    pub fn first_hit(&mut self, found: &FirstHit) -> &mut Self {
+        let verdict = match (found.is_clear(), found.ended) {
+            (true, _) => 0,
+            (_, Ended::Exact) => 1,
+            _ => 2,
+        };
+        self.byte(verdict).interval(found.t);
+        self.floats(&found.hit.map_or([f32::NAN; 3], |hit| hit.point));
+        self.number(found.hit.and_then(|hit| hit.triangle));
+        self.ended(found.ended).count(found.work.total())
+    }
+
     pub fn count(&mut self, count: u32) -> &mut Self {
         self.bytes(&count.to_ne_bytes())
     }
@@ -47,6 +81,11 @@ impl<'a> Put<'a> {
             Verdict::Yes => 1,
             _ => 2,
         })
+    }
+
+    /// The verdict of a proof that never tells the opposite.
+    pub fn is_clear(&mut self, is_clear: bool) -> &mut Self {
+        self.byte(if is_clear { 0 } else { 2 })
     }
 
     /// 1 outside, -1 inside, 0 undecided.

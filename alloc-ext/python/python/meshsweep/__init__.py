@@ -7,9 +7,9 @@
 >>> part.save("part.msw")
 
 Lengths are in the mesh's unit. Questions take rows of an array of shape (n, 3) and give records of
-shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. They run on all cores and
-without the interpreter's lock; Ctrl-C ends them. The bits of the answers are those that firmware
-computes.
+shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. Of curves in the plane
+z = 0 they take shape (n, 2) too. They run on all cores and without the interpreter's lock; Ctrl-C
+ends them. The bits of the answers are those that firmware computes.
 
 **Rounding.** Questions are asked in single precision. Points in double precision are rounded first,
 and intervals of distances, sides and verdicts about one distance are widened by that, so that they
@@ -42,19 +42,28 @@ __all__ = [
     "BuildError",
     "Ended",
     "Facing",
+    "Finding",
+    "Instructions",
     "MeshsweepError",
     "Model",
     "NotServedError",
     "Note",
+    "Proof",
     "QueryError",
     "Side",
     "TightHull",
+    "Trade",
+    "TradeRow",
+    "Triboxes",
     "Verdict",
     "build",
     "load",
+    "trade",
+    "verify",
 ]
 
 Records = np.recarray[Any, Any]
+Mesh = str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Any
 Progress = bool | Callable[[str, float], Any] | None
 
 
@@ -85,8 +94,37 @@ class AllHits(NamedTuple):
     """Shape (n,): whether it is proved that no other triangle is hit."""
 
 
+class Triboxes(NamedTuple):
+    """A union of n triboxes that holds the mesh, and its inside where `is_solid`.
+
+    A tribox holds the points p of its part for which `low[i] <= directions @ frame @ p <= high[i]`,
+    in real arithmetic: a box whose twelve edges are chamfered.
+    """
+
+    node: NDArray[np.uint32]
+    """Shape (n,): the numbers that answers name triboxes by."""
+    low: NDArray[np.float32]
+    """Shape (n, 9): least values along the directions."""
+    high: NDArray[np.float32]
+    """Shape (n, 9): greatest values along the directions."""
+    corners: NDArray[np.float32]
+    """Shape (n, 32, 3): points whose convex hull holds the tribox, in its frame. Some coincide.
+
+    No plane of the hull is farther out than 2^-20 of the power of two above all values of its
+    tribox. `corners @ frame` has them in the mesh's frame, rounded.
+    """
+    directions: NDArray[np.float32]
+    """Shape (9, 3): the axes, and the diagonals of their planes, of length sqrt(2)."""
+    frame: NDArray[np.float32]
+    """Shape (3, 3): the rotation from the mesh's frame to the triboxes'."""
+    is_solid: bool
+    """Whether the union holds the inside of the mesh."""
+    distance: float | None
+    """No point of the union's boundary is farther from the mesh; `None`: that is not stored."""
+
+
 def build(
-    mesh: str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Any,
+    mesh: Mesh,
     for_: str | Iterable[str] = (),
     *,
     progress: Progress = None,
@@ -145,16 +183,158 @@ def build(
         "closed": closed,
     }
     with _Bar(progress) as tell:
-        if isinstance(mesh, (str, os.PathLike)):
-            return Model(_meshsweep.build_file(os.fspath(mesh), options, tell))
-        vertices, faces = _arrays_of(mesh)
-        return Model(_meshsweep.build_mesh(vertices, faces, options, tell))
+        return Model(_meshsweep.build(_given(mesh), options, tell))
 
 
 def load(file: str | os.PathLike[str]) -> Model:
     """The model of a blob in a file. Every byte is checked: raises `BlobError`."""
     with open(file, "rb") as opened:
         return Model(opened.read())
+
+
+class Finding(NamedTuple):
+    """A claim of a model, and what came of its proof."""
+
+    structure: str
+    """As "box tree"."""
+    outcome: str
+    """ "proved", "failed", or "not proved": neither the claim nor its opposite."""
+    text: str
+    """What was proved; else what does not hold, with its place, or why there is no proof."""
+    counts: dict[str, int]
+    """What was counted on the way."""
+
+
+class Proof(NamedTuple):
+    """What came of the proofs of a model. Falsy if any claim is open."""
+
+    proved: list[Finding]
+    open: list[Finding]
+    """Those that failed, and those without a proof."""
+
+    def __bool__(self) -> bool:
+        return bool(self.proved) and not self.open
+
+
+def verify(
+    model: Model,
+    mesh: Mesh,
+    *,
+    unit: str | None = None,
+    frames: Iterable[str | os.PathLike[str]] = (),
+) -> Proof:
+    """Proves what a model claims of the mesh, or of the curves, that it was built from.
+
+    By code of its own: a parser, exact arithmetic and a replay that share no code with the build
+    or the questions. `mesh`, `unit` and `frames` are those of `build`. The claims: the mesh is that
+    of the file but for repairs; boxes, hulls and triboxes hold the mesh; stated errors are bounds.
+
+    `if verify(model, mesh)` is true only if all is proved. Raises `BuildError` if the mesh is
+    refused. Ctrl-C is seen at the end: the proofs take some times as long as the build.
+    """
+    if not isinstance(model, Model):
+        raise QueryError(f"a Model is wanted, not {type(model).__name__}")
+    files = [os.fspath(frame) for frame in frames]
+    found = [
+        Finding(structure, outcome, text, dict(counts))
+        for structure, outcome, text, counts in _meshsweep.verify(
+            model._model, _given(mesh), unit, files
+        )
+    ]
+    proved = [finding for finding in found if finding.outcome == "proved"]
+    return Proof(proved, [finding for finding in found if finding.outcome != "proved"])
+
+
+class Instructions(NamedTuple):
+    """Predicted instructions of a query on a processor."""
+
+    cpu: str
+    mean: float
+    most: float
+    """Of the costliest query that was asked."""
+    at_most: float
+    """The same, times the most that predictions were short of counts when they were fitted."""
+    error: float
+    """Largest relative error of a predicted mean when costs were fitted."""
+    stack: int
+    """Bytes of the processor's stack, at most."""
+
+
+class TradeRow(NamedTuple):
+    """A setting, what it guarantees and what it costs. Lengths are in the mesh's unit."""
+
+    structure: str
+    dials: str
+    """How it is asked: "exact", or tolerances, steps, and what is kept between queries."""
+    build: str
+    """Options of `meshsweep build` that give it."""
+    error: float | None
+    """The widest interval that was found: of other queries it may be wider, and holds. `None` of
+    lower bounds."""
+    median_error: float | None
+    undecided: int
+    """Segments that stayed undecided."""
+    instructions: dict[str, Instructions]
+    """By the name of the processor. One without fitted costs is missing."""
+    flash: int
+    """Bytes of the blob."""
+    scratch: int
+    """Bytes of scratch, and of memory that is kept between queries."""
+    nanoseconds: float
+    """Of a mean query on one thread here."""
+    is_best: bool
+    """Whether no other row has as small an error, as few instructions and as little flash."""
+
+
+class Trade(NamedTuple):
+    """What each setting of each structure costs and guarantees."""
+
+    rows: list[TradeRow]
+    not_built: list[tuple[str, str]]
+    """Structures that the mesh does not allow, and why."""
+    needles: float
+    """The part of the triangles that are fifty times as long as high: from 0.1 on the mesh takes
+    more instructions than predicted, which `at_most` allows for."""
+
+
+def trade(
+    mesh: Mesh,
+    for_: str = "closest",
+    *,
+    at: str | ArrayLike = "near",
+    count: int = 1000,
+    progress: Progress = None,
+    unit: str | None = None,
+) -> Trade:
+    """Measures what each setting of each structure guarantees and costs: `meshsweep trade`.
+
+    `mesh` and `unit` as of `build`. `for_` is "closest" or "segment". `at` is "near" the surface,
+    "far", or a "path", of `count` points or segments; or points of shape (n, 3), segments of shape
+    (n, 2, 3), which are rounded to single precision.
+
+    Cost: a build for each structure, and each query against all triangles in double precision.
+    `progress` is called as that of `build`. Its exception, and Ctrl-C, are seen at the end.
+    """
+    places: str | list[list[float]]
+    if isinstance(at, str):
+        places = at
+    else:
+        given = _numbers(at, "at")
+        shape, wanted = ((2, 3), "(n, 2, 3)") if for_ == "segment" else ((3,), "(n, 3)")
+        if given.shape[1:] != shape:
+            raise QueryError(f"at: shape {wanted} is wanted, not {given.shape}")
+        if not np.all(np.isfinite(_single(given))):
+            raise QueryError("at: a number is not finite, or beyond single precision")
+        places = _single(given).reshape(-1, 3).tolist()
+    if count < 1:
+        raise QueryError("count: at least 1 is wanted")
+    with _Bar(progress) as tell:
+        found = _meshsweep.trade(_given(mesh), for_, places, count, unit, tell)
+    rows = []
+    for row in found["rows"]:
+        boards = [Instructions(**board) for board in row["instructions"]]
+        rows.append(TradeRow(**{**row, "instructions": {board.cpu: board for board in boards}}))
+    return Trade(rows, found["not_built"], found["needles"])
 
 
 class Model:
@@ -174,6 +354,9 @@ class Model:
 
     def __reduce__(self) -> tuple[type[Model], tuple[bytes]]:
         return Model, (bytes(self),)
+
+    def _points(self, points: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
+        return _points(points, (3, 2) if self._facts["is_flat"] else (3,))
 
     def __repr__(self) -> str:
         return f"<meshsweep.Model for {','.join(self.serves)}: {len(bytes(self))} bytes>"
@@ -212,7 +395,7 @@ class Model:
 
     @property
     def has_sides(self) -> bool | None:
-        """Whether `signed_distance` tells sides; `None` without a box tree."""
+        """Whether `signed_distance` tells sides; `None` without a box tree and without curves."""
         return self._facts["has_sides"]
 
     @property
@@ -240,7 +423,7 @@ class Model:
         after so many `steps`: the interval is wider then, and holds.
         """
         dtype = _records.CLOSEST_ON_CURVE if self._facts["is_curve"] else _records.CLOSEST
-        rows, moved = _points(points)
+        rows, moved = self._points(points)
         found = self._model.closest_point(rows, (float(rel), float(abs), steps), dtype.itemsize)
         return _widened(records(found, dtype), moved)
 
@@ -256,7 +439,17 @@ class Model:
         The winding number of an open mesh passes 1/2 away from the surface. So it tells no side of
         a point that single precision does not hold: of an open mesh such points are undecided. Give
         float32 to have their sides.
+
+        Of a fence, which is closed curves in a plane of constant z, `points` have shape (n, 2), and
+        `INSIDE` says that the fence allows the point: it is in an inclusion zone, or there is none,
+        and in no exclusion zone. Fields are `polyline`, `segment` and `safe_motion` in place of
+        `triangle`. The distance is that of the nearest line of any zone.
         """
+        if self._facts["is_curve"]:
+            rows, moved = _points(points, (2,))
+            size = _records.SIGNED_OF_FENCE.itemsize
+            raw = self._model.signed_distance_of_fence(rows, steps, size)
+            return _widened(records(raw, _records.SIGNED_OF_FENCE), moved)
         rows, moved = _points(points)
 
         def ask(rows: NDArray[np.float32], by_nearest_alone: bool) -> Records:
@@ -277,16 +470,17 @@ class Model:
         """Whether the surface is at most `distance` from each point.
 
         Fields: `verdict` (a `Verdict`: 0 only where it is proved that nothing is so near);
-        `triangle`, the witness of a `YES`, or -1, of curves its segment; `ended`; `work`. Deep
-        inside a part nothing is near.
+        `triangle`, the witness of a `YES`, or -1; of curves `polyline` and `segment`; `ended`;
+        `work`. Deep inside a part nothing is near.
         """
-        rows, moved = _points(points)
-        size, limit = _records.WITHIN.itemsize, _checked(distance)
+        rows, moved = self._points(points)
+        dtype = _records.WITHIN_OF_CURVE if self._facts["is_curve"] else _records.WITHIN
+        limit = _checked(distance)
 
         def ask(limits: NDArray[np.float32]) -> Records:
             limits = np.broadcast_to(limits[:, None], (len(rows), 1))
-            found = self._model.within(np.hstack([rows, limits]), steps, size)
-            return records(found, _records.WITHIN)
+            found = self._model.within(np.hstack([rows, limits]), steps, dtype.itemsize)
+            return records(found, dtype)
 
         if moved is None:
             return _asked(ask, limit, np.zeros(1))
@@ -295,31 +489,35 @@ class Model:
     def nearest(self, points: ArrayLike, count: int) -> Records:
         """The `count` triangles nearest to each point, nearest first: shape (n, count).
 
-        Fields: `lower`, `upper`, `point`, `triangle`. A mesh with fewer triangles has fewer.
+        Fields: `lower`, `upper`, `point`, `triangle`; of curves `polyline` and `segment`. A mesh
+        with fewer triangles has fewer.
         """
-        rows, moved = _points(points)
+        rows, moved = self._points(points)
         if count < 1:
             raise QueryError("count: at least 1 is wanted")
-        found = records(
-            self._model.nearest(rows, count, _records.NEAREST.itemsize), _records.NEAREST
-        )
+        ask, dtype = self._model.nearest, _records.NEAREST
+        if self._facts["is_curve"]:
+            ask, dtype = self._model.nearest_on_curve, _records.NEAREST_ON_CURVE
+        found = records(ask(rows, count, dtype.itemsize), dtype)
         each = found.reshape(len(rows), -1) if len(rows) else found.reshape(0, count)
         return _widened(cast(Records, each), moved)
 
     def all_within(self, points: ArrayLike, distance: SupportsFloat) -> list[Records]:
         """All triangles that may be at most `distance` from each point: a list of n records.
 
-        Fields: `lower`, `upper`, `point`, `triangle`, and `is_certain`: false of triangles that are
-        perhaps a little farther. Lists are complete, always: no other triangle is so near. Points
-        in double precision that single precision does not hold are refused.
+        Fields: `lower`, `upper`, `point`, `triangle` (of curves `polyline` and `segment`), and
+        `is_certain`: false of triangles that are perhaps a little farther. Lists are complete,
+        always: no other triangle is so near. Points in double precision that single precision does
+        not hold are refused.
         """
-        rows, moved = _points(points)
+        rows, moved = self._points(points)
         if moved is not None:
             raise QueryError("all_within: the points are not in single precision; round them first")
-        size, limit = _records.ALL_WITHIN.itemsize, _checked(distance)
-        (least,) = _up(np.array([limit])) if float(np.float32(limit)) < limit else [limit]
-        begins, raw, _ = self._model.all_within(rows, float(least), size)
-        found = records(raw, _records.ALL_WITHIN)
+        ask, dtype, limit = self._model.all_within, _records.ALL_WITHIN, _checked(distance)
+        if self._facts["is_curve"]:
+            ask, dtype = self._model.all_within_on_curve, _records.ALL_WITHIN_OF_CURVE
+        begins, raw, _ = ask(rows, _least(limit), dtype.itemsize)
+        found = records(raw, dtype)
         found.is_certain[:] = found.upper.astype(np.float64) <= limit
         return _parts(begins, found)
 
@@ -433,6 +631,64 @@ class Model:
         found = self._model.meets(_other(other), _poses(poses), None, size)
         return records(found, _records.MEETS)
 
+    def first_contact(
+        self,
+        starts: ArrayLike,
+        ends: ArrayLike,
+        *,
+        radius: SupportsFloat = 0.0,
+        tool: ArrayLike = (0.0, 0.0, 0.0),
+        steps: int | None = None,
+    ) -> Records:
+        """Where a convex tool that is carried straight from each start to its end first meets the
+        surface. Needs "segment".
+
+        The tool is all points within `radius` of the hull of its 1 to 32 corners, shape (k, 3),
+        relative to start and end: one corner is a ball, two are a capsule. To keep a distance, add
+        it to the radius.
+
+        Fields: those of `first_hit`. `NO` where it is proved that no point of the tool touches the
+        mesh at any instant, `YES` where it certainly meets the mesh by `t_upper`; before `t_lower`
+        it is clear. `point` is of the triangle that may stop it. Only the surface counts. Starts,
+        ends and corners are rounded to single precision. The rounding of their sums, and of the
+        radius, is in the answer: a tool without radius may stay `UNDECIDED` where it hits.
+        """
+        size, moves = _records.FIRST_HIT.itemsize, _pairs(starts, ends)
+        corners = _single(_rows(tool, "tool"))
+        if not 1 <= len(corners) <= 32:
+            raise QueryError(f"tool: 1 to 32 corners are wanted, not {len(corners)}")
+        limit = _checked(radius, "radius")
+        found = self._model.first_contact(moves, corners, limit, steps, size)
+        return records(found, _records.FIRST_HIT)
+
+    def first_contact_of(
+        self,
+        other: Model,
+        from_poses: ArrayLike,
+        to_poses: ArrayLike,
+        *,
+        keep: SupportsFloat = 0.0,
+        straight: bool = False,
+    ) -> Records:
+        """How far another model may move before it is within `keep` of this surface.
+
+        Poses as those of `distance_to`, one of each for a move. The way from one to the other is a
+        screw, on which the model stays rigid; with `straight` each point goes along a straight
+        line, and a model that turns shrinks on the way. Both need "segment".
+
+        Fields: `verdict`: `NO` where it is proved that the surfaces are farther apart than `keep`
+        during the whole move, else `UNDECIDED`; `clear_until`, the part of the move, 0 to 1, before
+        which they are, infinite if they always are; `points`, of each surface, in this frame, and
+        their `triangles`, which may stop the move; `ended`; `work`.
+        """
+        begins, ends = _poses(from_poses), _poses(to_poses)
+        if len(begins) != len(ends):
+            raise QueryError(f"{len(begins)} poses to begin at, {len(ends)} to end at")
+        size, limit = _records.MOVED.itemsize, _least(_checked(keep, "keep"))
+        moves = np.hstack([begins, ends])
+        found = self._model.first_contact_of(_other(other), moves, straight, limit, size)
+        return records(found, _records.MOVED)
+
     def field_distance(self, points: ArrayLike) -> Records:
         """Bounds of the distance by the distance field: the bits that a Cortex-M computes.
 
@@ -443,6 +699,64 @@ class Model:
         found = self._model.field(rows, _records.FIELD.itemsize)
         return _widened(records(found, _records.FIELD), moved)
 
+    def triboxes(self, count: int | None = None) -> Triboxes:
+        """The geometry of at most `count` stored triboxes, or of all. Needs "triboxes"."""
+        if count is not None and not 1 <= count < 2**32:
+            raise QueryError(f"count: {count} is none from 1 to 2^32 - 1")
+        found = self._model.triboxes(count)
+        return Triboxes(
+            found["nodes"],
+            found["low"].reshape(-1, 9),
+            found["high"].reshape(-1, 9),
+            found["corners"].reshape(-1, 32, 3),
+            _records.DIRECTIONS.copy(),
+            np.array(found["frame"], np.float32),
+            found["is_solid"],
+            found["distance"],
+        )
+
+    def tribox_distance(self, points: ArrayLike, *, steps: int | None = None) -> Records:
+        """A lower bound of the distance of each point, by triboxes alone. Needs "triboxes".
+
+        Fields: `lower`: no point of the mesh is nearer, nor one inside of it if the triboxes are
+        solid; `tribox`, the node with this bound; `ended`; `work`. There is no upper bound. So
+        `lower > d` proves that nothing is within d, and else nothing is known.
+        """
+        rows, moved = _points(points)
+        found = self._model.tribox_distance(rows, steps, _records.TRIBOX.itemsize)
+        return _widened(records(found, _records.TRIBOX), moved)
+
+    def tribox_first_hit(
+        self, starts: ArrayLike, ends: ArrayLike, *, steps: int | None = None
+    ) -> Records:
+        """How far each segment is clear, by triboxes alone. Needs "triboxes".
+
+        Fields: `verdict`: `NO` where it is proved that the segment is clear, else `UNDECIDED`;
+        `t_lower`, the parameter before which it is clear, 0 at the start and 1 at the end, infinite
+        if it is clear; `tribox`, the node that it may enter there, or -1; `ended`; `work`.
+        """
+        size, rows = _records.TRIBOX_HIT.itemsize, _pairs(starts, ends)
+        return records(self._model.tribox_hit(rows, steps, size), _records.TRIBOX_HIT)
+
+    def tribox_within_of(
+        self, other: Model, distance: SupportsFloat, poses: ArrayLike | None = None
+    ) -> Records:
+        """Whether both models may be at most `distance` apart, at poses of the other as those of
+        `distance_to`, by triboxes alone. Both need "triboxes".
+
+        Fields: `verdict`: `NO` where it is proved that all points of both are farther, insides of
+        solid triboxes too; else `UNDECIDED`, never `YES`; `triboxes`, a node of each that may be
+        nearer, or -1; `ended`; `work`.
+        """
+        size, limit = _records.TRIBOX_PAIR.itemsize, _least(_checked(distance))
+        found = self._model.tribox_separation(_other(other), _poses(poses), limit, size)
+        return records(found, _records.TRIBOX_PAIR)
+
+    def tribox_overlap(self, other: Model, poses: ArrayLike | None = None) -> Records:
+        """Whether both models may meet: `tribox_within_of` with a distance of 0. Models that only
+        touch are not proved to be apart."""
+        return self.tribox_within_of(other, 0.0, poses)
+
     def tight_hulls(self) -> list[TightHull]:
         """Hulls of few faces that enclose the mesh, coarse to fine. Needs "tight"."""
         return [TightHull(*arrays, slack) for arrays, slack in self._model.tight_hulls()]
@@ -452,8 +766,10 @@ class Model:
         return [self._model.hull_level(level) for level in range(self._model.hull_levels())]
 
 
-def _arrays_of(mesh: Any) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """Vertices and triangles of whatever `build` takes."""
+def _given(mesh: Any) -> str | tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """The file, or vertices and triangles, of whatever `build` takes."""
+    if isinstance(mesh, (str, os.PathLike)):
+        return os.fspath(mesh)
     if hasattr(mesh, "to_geometry") and not hasattr(mesh, "faces"):
         raise BuildError("a scene is no mesh: give scene.to_geometry()")
     pair = (mesh.vertices, mesh.faces) if hasattr(mesh, "faces") else mesh
@@ -497,20 +813,23 @@ def _single(numbers: NDArray[Any]) -> NDArray[np.float32]:
         return np.require(numbers, np.float32, ["C", "A"])
 
 
-def _rows(given: ArrayLike, what: str) -> NDArray[Any]:
+def _rows(given: ArrayLike, what: str, widths: tuple[int, ...] = (3,)) -> NDArray[Any]:
+    """Rows of one of these widths; zeros fill them up to the first."""
     rows = _numbers(given, what)
-    if rows.ndim == 1 and rows.shape[0] == 3:
+    if rows.ndim == 1 and rows.shape[0] in widths:
         rows = rows[None, :]
-    if rows.ndim != 2 or rows.shape[1] != 3:
-        raise QueryError(f"{what}: shape (n, 3) is wanted, not {rows.shape}")
-    return rows
+    if rows.ndim != 2 or rows.shape[1] not in widths:
+        wanted = " or ".join(f"(n, {width})" for width in widths)
+        raise QueryError(f"{what}: shape {wanted} is wanted, not {rows.shape}")
+    missing = widths[0] - rows.shape[1]
+    return np.pad(rows, [(0, 0), (0, missing)]) if missing else rows
 
 
 def _points(
-    given: ArrayLike,
+    given: ArrayLike, widths: tuple[int, ...] = (3,)
 ) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
     """The points in single precision, and bounds of how far each was moved, if any was."""
-    rows = _rows(given, "points")
+    rows = _rows(given, "points", widths)
     single = _single(rows)
     if rows.dtype.kind == "f" and rows.dtype.itemsize <= 4:
         return single, None
@@ -536,16 +855,18 @@ def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
         return found
     slack = moved.reshape(moved.shape + (1,) * (found.ndim - 1))
     is_held = slack == 0
-    lower = np.nextafter(found.lower - slack, np.float32(-np.inf))
-    upper = np.nextafter(found.upper + slack, np.float32(np.inf))
-    lower = np.where(is_held, found.lower, lower)
-    upper = np.where(is_held, found.upper, upper)
     names = found.dtype.names or ()
+    lower = np.nextafter(found.lower - slack, np.float32(-np.inf))
+    lower = np.where(is_held, found.lower, lower)
+    if "upper" in names:
+        upper = np.nextafter(found.upper + slack, np.float32(np.inf))
+        upper = found.upper[:] = np.where(is_held, found.upper, upper)
     if "side" in names:
         certain = np.where(lower > 0, Side.OUTSIDE, np.where(upper < 0, Side.INSIDE, 0))
         # A field that does not tell sides keeps its distances at 0 and above.
         kept = np.where(is_held | (found.side == certain), found.side, 0)
-        lower = np.where((found.side == 0) & (found.lower >= 0), np.maximum(lower, 0), lower)
+        is_plain = (found.side == 0) & (found.lower >= 0) & (found.upper > 0)
+        lower = np.where(is_plain, np.maximum(lower, 0), lower)
         found.side[:] = kept
     else:
         lower = np.maximum(lower, np.float32(0))
@@ -554,7 +875,6 @@ def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
         left = np.where(is_held, found.safe_motion, left)
         found.safe_motion[:] = np.maximum(left, np.float32(0))
     found.lower[:] = lower
-    found.upper[:] = upper
     return found
 
 
@@ -575,8 +895,8 @@ def _asked(
     found[is_near] = near[is_near]
     found.verdict[is_open] = Verdict.UNDECIDED
     found.ended[is_open] = Ended.RESOLUTION
-    witness = "triangle" if "triangle" in (found.dtype.names or ()) else "triangles"
-    found[witness][is_open] = -1
+    for witness in {"triangle", "triangles", "polyline", "segment"} & {*(found.dtype.names or ())}:
+        found[witness][is_open] = -1
     return found
 
 
@@ -588,16 +908,22 @@ def _down(values: NDArray[np.float64]) -> NDArray[np.float32]:
     return np.maximum(np.nextafter(values.astype(np.float32), np.float32(-np.inf)), np.float32(0))
 
 
-def _checked(distance: SupportsFloat) -> float:
+def _checked(distance: SupportsFloat, what: str = "distance") -> float:
     try:
         value = float(distance)
     except (TypeError, ValueError):
-        raise QueryError(f"distance: one number is wanted, not {distance!r}") from None
+        raise QueryError(f"{what}: one number is wanted, not {distance!r}") from None
     if not (np.isfinite(value) and value >= 0):
-        raise QueryError(f"distance: {distance} is negative or not finite")
+        raise QueryError(f"{what}: {distance} is negative or not finite")
     if value > float(np.finfo(np.float32).max):
-        raise QueryError(f"distance: {distance} is beyond single precision")
+        raise QueryError(f"{what}: {distance} is beyond single precision")
     return value
+
+
+def _least(limit: float) -> float:
+    """The distance, or a little more that single precision holds."""
+    single = np.float32(limit)
+    return float(np.nextafter(single, np.float32(np.inf)) if float(single) < limit else single)
 
 
 def _facing(facing: Facing | int) -> int:

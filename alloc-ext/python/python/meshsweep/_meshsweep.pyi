@@ -14,16 +14,32 @@ _Records: TypeAlias = NDArray[np.uint8]
 _Rows: TypeAlias = NDArray[np.float32]
 _Many: TypeAlias = tuple[NDArray[np.uint64], _Records, NDArray[np.bool_]]
 _Mesh: TypeAlias = tuple[NDArray[np.float32], NDArray[np.uint32]]
+_Given: TypeAlias = str | tuple[NDArray[np.float64], NDArray[np.uint32]]
 _Tell: TypeAlias = Callable[[str, float], Any] | None
 
 class _Facts(TypedDict):
     serves: list[str]
     is_curve: bool
+    is_flat: bool
     bounds: list[list[float]] | None
     stored_bounds: list[list[float]] | None
     is_closed: bool | None
     has_sides: bool | None
     surface_error: float | None
+
+class _Triboxes(TypedDict):
+    nodes: NDArray[np.uint32]
+    low: NDArray[np.float32]
+    high: NDArray[np.float32]
+    corners: NDArray[np.float32]
+    frame: list[list[float]]
+    is_solid: bool
+    distance: float | None
+
+class _Measured(TypedDict):
+    rows: list[dict[str, Any]]
+    not_built: list[tuple[str, str]]
+    needles: float
 
 class Model:
     def __init__(self, bytes: bytes) -> None: ...
@@ -52,12 +68,32 @@ class Model:
         self, other: Model, poses: _Rows, rel: float, abs: float, size: int
     ) -> _Records: ...
     def meets(self, other: Model, poses: _Rows, distance: float | None, size: int) -> _Records: ...
+    def signed_distance_of_fence(self, points: _Rows, steps: int | None, size: int) -> _Records: ...
+    def nearest_on_curve(self, points: _Rows, count: int, size: int) -> _Records: ...
+    def all_within_on_curve(self, points: _Rows, distance: float, size: int) -> _Many: ...
+    def first_contact(
+        self, moves: _Rows, tool: _Rows, radius: float, steps: int | None, size: int
+    ) -> _Records: ...
+    def first_contact_of(
+        self, other: Model, moves: _Rows, is_straight: bool, keep: float, size: int
+    ) -> _Records: ...
+    def triboxes(self, count: int | None) -> _Triboxes: ...
+    def tribox_distance(self, points: _Rows, steps: int | None, size: int) -> _Records: ...
+    def tribox_hit(self, rows: _Rows, steps: int | None, size: int) -> _Records: ...
+    def tribox_separation(
+        self, other: Model, poses: _Rows, distance: float, size: int
+    ) -> _Records: ...
 
 def words_of_for() -> list[str]: ...
-def build_file(file: str, options: dict[str, Any], progress: _Tell) -> Model: ...
-def build_mesh(
-    vertices: NDArray[np.float64],
-    triangles: NDArray[np.uint32],
-    options: dict[str, Any],
+def build(mesh: _Given, options: dict[str, Any], progress: _Tell) -> Model: ...
+def trade(
+    mesh: _Given,
+    word: str,
+    at: str | list[list[float]],
+    count: int,
+    unit: str | None,
     progress: _Tell,
-) -> Model: ...
+) -> _Measured: ...
+def verify(
+    model: Model, mesh: _Given, unit: str | None, frames: list[str]
+) -> list[tuple[str, str, str, list[tuple[str, int]]]]: ...

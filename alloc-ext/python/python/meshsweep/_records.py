@@ -8,12 +8,17 @@ import numpy as np
 _INTERVAL = [("lower", "f4"), ("upper", "f4")]
 _END = [("ended", "u1"), ("work", "u4")]
 _POINT = ("point", "f4", 3)
+_SEGMENT = [("polyline", "i8"), ("segment", "i8")]
 
 CLOSEST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), *_END])
-CLOSEST_ON_CURVE = np.dtype(
-    [*_INTERVAL, _POINT, ("polyline", "i8"), ("segment", "i8"), ("safe_motion", "f4"), *_END]
-)
+CLOSEST_ON_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END])
 SIGNED = np.dtype([*_INTERVAL, ("side", "i1"), _POINT, ("triangle", "i8"), *_END])
+SIGNED_OF_FENCE = np.dtype(
+    [*_INTERVAL, ("side", "i1"), _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END]
+)
+WITHIN_OF_CURVE = np.dtype([("verdict", "u1"), *_SEGMENT, *_END])
+NEAREST_ON_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT])
+ALL_WITHIN_OF_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT, ("is_certain", "?")])
 WITHIN = np.dtype([("verdict", "u1"), ("triangle", "i8"), *_END])
 NEAREST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8")])
 ALL_WITHIN = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), ("is_certain", "?")])
@@ -24,7 +29,24 @@ FIRST_HIT = np.dtype(
 ALL_HITS = np.dtype([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")])
 FIELD = np.dtype([*_INTERVAL, ("side", "i1"), ("gradient", "f4", 3)])
 PAIR = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END])
+MOVED = np.dtype(
+    [
+        *[("verdict", "u1"), ("clear_until", "f4")],
+        *[("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END],
+    ]
+)
 MEETS = np.dtype([("verdict", "u1"), ("triangles", "i8", 2), *_END])
+TRIBOX = np.dtype([("lower", "f4"), ("tribox", "i8"), *_END])
+TRIBOX_HIT = np.dtype([("verdict", "u1"), ("t_lower", "f4"), ("tribox", "i8"), *_END])
+TRIBOX_PAIR = np.dtype([("verdict", "u1"), ("triboxes", "i8", 2), *_END])
+
+DIRECTIONS = np.array(
+    [
+        *[[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+        *[[1, 1, 0], [1, -1, 0], [0, 1, 1], [0, 1, -1], [1, 0, 1], [-1, 0, 1]],
+    ],
+    np.float32,
+)
 
 
 class Verdict(IntEnum):
