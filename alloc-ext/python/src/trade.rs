@@ -115,8 +115,8 @@ pub fn trade(
 fn told(trade: &Trade) -> Measured {
     let best = of::pareto(&trade.rows);
     let row = |(index, row): (usize, &of::Row)| {
-        let boards = Board::ALL.iter().zip(row.boards);
-        let instructions = boards.filter_map(|(board, found)| {
+        let boards = Board::ALL.iter().zip(row.boards).zip(row.stack);
+        let instructions = boards.filter_map(|((board, found), stack)| {
             let found = found?;
             Some(Instructions {
                 cpu: board.name(),
@@ -124,7 +124,7 @@ fn told(trade: &Trade) -> Measured {
                 most: found.most,
                 at_most: found.at_most(),
                 error: found.error,
-                stack: found.stack,
+                stack,
             })
         });
         Row {
