@@ -6,7 +6,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::c_library::HOST;
 use crate::checks::cargo;
 use crate::process;
 use crate::steps::Steps;
@@ -18,16 +17,15 @@ const OLDEST: &str = env!("CARGO_PKG_RUST_VERSION");
 /// Lists public items by documentation in JSON, whose format the compiler decides.
 const LISTER: (&str, &str) = ("cargo-public-api", "0.52.0");
 
-/// The crates that are published, in this order, and the targets whose documentation docs.rs shows.
-const CRATES: [(&str, &[&str]); 2] =
-    [("meshsweep-core", &[HOST, "thumbv7em-none-eabihf"]), ("meshsweep", &[HOST])];
+/// The crates that are published, in this order.
+const CRATES: [&str; 2] = ["meshsweep-core", "meshsweep"];
 
 /// Checks all, and compares the lists of public items, or writes them anew.
 pub fn run(steps: &mut Steps, writes: bool) {
     steps.run(&format!("Rust {OLDEST}"), oldest);
     steps.run("documentation as docs.rs makes it", documentation);
     let lister = steps.run(LISTER.0, lister);
-    for (name, _) in CRATES {
+    for name in CRATES {
         let Some(lister) = &lister else { break };
         steps.run(&format!("public interface of {name}"), || interface(lister, name, writes));
     }
@@ -36,16 +34,19 @@ pub fn run(steps: &mut Steps, writes: bool) {
         return;
     }
     steps.run("dry run of publishing", || {
-        let packages = CRATES.iter().flat_map(|(name, _)| ["--package", name]);
+        let packages = CRATES.iter().flat_map(|name| ["--package", name]);
         process::run(cargo(&["publish", "--dry-run", "--locked", "--quiet"]).args(packages))
     });
 }
 
 /// cargo of another compiler, which rustup fetches if it is missing. In a folder of its own: the
 /// artifacts of compilers replace each other.
-fn of_compiler(compiler: &str, target: &str) -> Result<Command, String> {
-    let fetch = ["toolchain", "install", compiler, "--profile", "minimal", "--no-self-update"];
-    process::capture(Command::new("rustup").args(fetch).args(["--target", target]))?;
+fn of_compiler(compiler: &str) -> Result<Command, String> {
+    let has_it = ["run", compiler, "rustc", "--version"];
+    if process::capture(Command::new("rustup").args(has_it)).is_err() {
+        let fetch = ["toolchain", "install", compiler, "--profile", "minimal", "--no-self-update"];
+        process::capture(Command::new("rustup").args(fetch))?;
+    }
     let mut command = Command::new("rustup");
     // Else the variables of the compiler that runs this decide.
     command.env_remove("RUSTUP_TOOLCHAIN").env_remove("CARGO").env_remove("RUSTC");
@@ -55,21 +56,16 @@ fn of_compiler(compiler: &str, target: &str) -> Result<Command, String> {
 }
 
 fn oldest() -> Result<(), String> {
-    let packages = CRATES.iter().flat_map(|(name, _)| ["--package", name]);
+    let packages = CRATES.iter().flat_map(|name| ["--package", name]);
     let check = ["check", "--quiet", "--locked", "--all-features"];
-    process::run(of_compiler(OLDEST, HOST)?.args(check).args(packages))
+    process::run(of_compiler(OLDEST)?.args(check).args(packages))
 }
 
 fn documentation() -> Result<(), String> {
-    for (name, targets) in CRATES {
-        for target in targets {
-            process::run(
-                of_compiler("nightly", target)?
-                    .args(["doc", "--quiet", "--locked", "--no-deps", "--all-features"])
-                    .args(["--package", name, "--target", target])
-                    .env("RUSTDOCFLAGS", "--cfg docsrs -D warnings"),
-            )?;
-        }
+    for name in CRATES {
+        let doc = ["doc", "--quiet", "--locked", "--no-deps", "--all-features", "--package", name];
+        let mut command = of_compiler("nightly")?;
+        process::run(command.args(doc).env("RUSTDOCFLAGS", "--cfg docsrs -D warnings"))?;
     }
     Ok(())
 }
@@ -91,7 +87,7 @@ fn lister() -> Result<PathBuf, String> {
 fn interface(lister: &Path, name: &str, writes: bool) -> Result<(), String> {
     let file = workspace::root().join("host-tests/interface").join(name).with_extension("txt");
     // The lister runs cargo of the nightly compiler by itself.
-    of_compiler("nightly", HOST)?;
+    of_compiler("nightly")?;
     let mut list = Command::new(lister);
     list.current_dir(workspace::root()).env("RUSTUP_TOOLCHAIN", "nightly");
     list.args(["--package", name, "-sss", "--color", "never", "--target-dir"]);
