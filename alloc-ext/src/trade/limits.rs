@@ -197,11 +197,11 @@ impl Limits {
         Ok(Choice { first: first.clone(), second, built: built.clone() })
     }
 
-    /// Chooses a structure of two models that meets all limits but that of the error, which it has
-    /// not: the one that leaves the fewest poses without a proof, and of equal ones the one of the
-    /// fewest mean instructions. One that calls a pose clear which is not is left out. With it
-    /// comes the best structure without it, if another one meets the limits. Flash is both blobs'.
-    /// [`measure_pair`](super::measure_pair()) gives the structures.
+    /// Chooses a structure of two models that meets all limits but that of the error, which pairs
+    /// have not. It has the fewest [false alarms](PairRow::false_alarms); of equal ones the fewest
+    /// mean instructions, then the least flash. Structures that [missed](PairRow::missed) a pose are
+    /// left out. The second one is the best of the others that meet the limits. Flash is both
+    /// blobs'. [`measure_pair`](super::measure_pair()) gives the structures.
     ///
     /// # Errors
     /// [`Unmet`].

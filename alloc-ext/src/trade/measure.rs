@@ -47,7 +47,7 @@ impl Spread {
 pub struct Instructions {
     /// Of a mean query.
     pub mean: f64,
-    /// Of the costliest one.
+    /// Of the costliest one. Of a distance field alone: of any point.
     pub most: f64,
     /// Factor by which the costliest query may be costlier:
     /// [`Cost::missed_by`](super::Cost::missed_by), of a mesh of [many needles](MANY_NEEDLES) times
@@ -71,8 +71,8 @@ impl Instructions {
         }
     }
 
-    /// Where a second search is asked too, its errors, if they are worse.
-    fn no_better_than(&mut self, other: &Cost) {
+    /// Where a query asks a second search too, takes its errors if they are larger.
+    fn take_larger_errors(&mut self, other: &Cost) {
         self.missed_by = self.missed_by.max(other.missed_by);
         self.error = self.error.max(other.error);
         self.typical = self.typical.max(other.typical);
@@ -91,6 +91,8 @@ impl Instructions {
 pub struct Row {
     /// The setting.
     pub setting: Setting,
+    /// The search whose costs it has. A field is known to be a tree or a lattice once it is built.
+    pub search: Search,
     /// Width of the interval. `None` if the structure gives a lower bound only.
     pub guaranteed: Option<Spread>,
     /// The distance or free length in f64, less the lower end: the error of a caller that must keep
@@ -124,7 +126,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Structure and dials in words, with the layout of a field.
+    /// The structure and its size in words, with the layout of a field.
     #[must_use]
     pub fn name(&self) -> String {
         let name = self.setting.recipe.name();
@@ -353,7 +355,7 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
         let all: Vec<f64> = answers.iter().map(of).collect::<Option<_>>()?;
         let mut found = Instructions::of(cost, &all);
         if let Some((search, _)) = answers.iter().find_map(|answer| answer.beside) {
-            found.no_better_than(fitted_cost(board, search)?);
+            found.take_larger_errors(fitted_cost(board, search)?);
         }
         if let (Search::Field | Search::FieldTree, Some(of)) = (search, field) {
             found.most = field::most(board, &of);
@@ -374,6 +376,7 @@ fn row(setting: Setting, built: &Built, asked: &Asked, truths: &[f64]) -> Option
     };
     Some(Row {
         setting,
+        search,
         guaranteed: each(&|i| upper(i) - lower(i)).filter(|_| is_bounded),
         found_lower: each(&|i| (truths[i] - lower(i)).max(0.0))?,
         found_upper: each(&|i| (upper(i) - truths[i]).max(0.0)).filter(|_| is_bounded),

@@ -2,9 +2,12 @@
 //! and costs.
 //!
 //! ```text
-//! settings ─ recipes ─ blobs ─ ask ─┬─ intervals ─ truth ─ errors ──┬─ rows ─ pareto
-//! points ───────────────────────────┴─ work ─ costs ─ instructions ─┘
+//! settings ─ blobs ─ ask ─┬─ intervals ──────────┬─ rows ─┬─ pareto
+//! points ─┬───────────────┴─ work ─ cost, field ─┤        └─ limits ─ choice
+//!         └─ truth ──────────────────────────────┘
 //! ```
+//!
+//! `pairs` does the same for two models.
 //!
 //! | file | owns |
 //! | --- | --- |

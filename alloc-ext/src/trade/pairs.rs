@@ -41,7 +41,7 @@ impl PairStructure {
         all
     }
 
-    /// Structure and dials in words.
+    /// The structure and its size in words.
     #[must_use]
     pub fn name(self) -> String {
         match self {
@@ -154,9 +154,9 @@ pub struct PairRow {
     pub boards: [Option<Instructions>; 2],
     /// Bytes of the processor's stack below the caller, at most, by board.
     pub stack: [u32; 2],
-    /// Poses that are proved to keep the distance.
+    /// Poses that it proves to keep the distance.
     pub clear: usize,
-    /// Poses that are not, although they do.
+    /// Poses that [`PairStructure::EXACT`] proves to keep it and this one does not.
     pub false_alarms: usize,
     /// Poses without a verdict.
     pub undecided: usize,

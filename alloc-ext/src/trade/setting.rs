@@ -69,9 +69,9 @@ impl Setting {
     setters! {
         /// Sets the [budget](Self::budget).
         with_budget: Budget => budget,
-        /// Sets [what a query takes over from the one before](Self::how). Sweeps know
-        /// [`How::Fresh`] and [`How::Coherent`]; any other is asked as `Fresh`. Tight hulls,
-        /// triboxes and distance fields know `Fresh` alone.
+        /// Sets [what a query takes over from the one before](Self::how). Box trees take all. Sweeps
+        /// and curves take [`How::Fresh`] and [`How::Coherent`], all else `Fresh` alone. What is not
+        /// taken is asked as `Fresh`.
         with_how: How => how,
     }
 
@@ -106,7 +106,8 @@ impl Setting {
         Self { entries: Some(entries), ..self }
     }
 
-    /// The search whose costs it has.
+    /// The search whose costs it has. A field counts as a lattice here: see
+    /// [`Row::search`](super::Row::search).
     #[must_use]
     pub const fn search(&self) -> Search {
         if matches!(self.question, Question::FirstHit) {

@@ -520,7 +520,7 @@ fn a_distance_to_keep_has_the_unit_that_it_names() {
     let alone = run(["trade", arg(&mesh), arg(&mesh), "--keep", "1"]);
     assert_eq!(alone.status.code(), Some(2));
     refused(&run(["trade", arg(&mesh), "--cpu", "m4f:168MHz"]), 2, "--cpu");
-    refused(&run(["trade", arg(&mesh), "--flash", "4K"]), 2, "build takes them");
+    refused(&run(["trade", arg(&mesh), "--flash", "4K"]), 2, "meshsweep build");
 }
 
 /// Distance of a point from the segments of closed polylines, in `D` dimensions.

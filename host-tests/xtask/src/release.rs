@@ -11,37 +11,40 @@ use crate::process;
 use crate::steps::Steps;
 use crate::workspace;
 
-/// The least compiler that the crates name.
+/// The oldest Rust that the crates support: `rust-version`.
 const OLDEST: &str = env!("CARGO_PKG_RUST_VERSION");
 
-/// Lists public items by documentation in JSON, whose format the compiler decides.
+/// Lists public items from rustdoc's JSON, whose format depends on the compiler.
 const LISTER: (&str, &str) = ("cargo-public-api", "0.52.0");
 
 /// The crates that are published, in this order.
 const CRATES: [&str; 2] = ["meshsweep-core", "meshsweep"];
 
 /// Checks all, and compares the lists of public items, or writes them anew.
-pub fn run(steps: &mut Steps, writes: bool) {
+pub fn run(steps: &mut Steps, is_update: bool) {
     steps.run(&format!("Rust {OLDEST}"), oldest);
     steps.run("documentation as docs.rs makes it", documentation);
     let lister = steps.run(LISTER.0, lister);
     for name in CRATES {
         let Some(lister) = &lister else { break };
-        steps.run(&format!("public interface of {name}"), || interface(lister, name, writes));
+        steps.run(&format!("public interface of {name}"), || interface(lister, name, is_update));
     }
-    if writes {
+    if is_update {
         // A list that changed is committed first.
         return;
     }
     steps.run("dry run of publishing", || {
-        let packages = CRATES.iter().flat_map(|name| ["--package", name]);
-        process::run(cargo(&["publish", "--dry-run", "--locked", "--quiet"]).args(packages))
+        process::run(cargo(&["publish", "--dry-run", "--locked", "--quiet"]).args(packages()))
     });
+}
+
+fn packages() -> impl Iterator<Item = &'static str> {
+    CRATES.iter().flat_map(|name| ["--package", name])
 }
 
 /// cargo of another compiler, which rustup fetches if it is missing. In a folder of its own: the
 /// artifacts of compilers replace each other.
-fn of_compiler(compiler: &str) -> Result<Command, String> {
+fn cargo_of(compiler: &str) -> Result<Command, String> {
     let has_it = ["run", compiler, "rustc", "--version"];
     if process::capture(Command::new("rustup").args(has_it)).is_err() {
         let fetch = ["toolchain", "install", compiler, "--profile", "minimal", "--no-self-update"];
@@ -56,15 +59,14 @@ fn of_compiler(compiler: &str) -> Result<Command, String> {
 }
 
 fn oldest() -> Result<(), String> {
-    let packages = CRATES.iter().flat_map(|name| ["--package", name]);
     let check = ["check", "--quiet", "--locked", "--all-features"];
-    process::run(of_compiler(OLDEST)?.args(check).args(packages))
+    process::run(cargo_of(OLDEST)?.args(check).args(packages()))
 }
 
 fn documentation() -> Result<(), String> {
     for name in CRATES {
         let doc = ["doc", "--quiet", "--locked", "--no-deps", "--all-features", "--package", name];
-        let mut command = of_compiler("nightly")?;
+        let mut command = cargo_of("nightly")?;
         process::run(command.args(doc).env("RUSTDOCFLAGS", "--cfg docsrs -D warnings"))?;
     }
     Ok(())
@@ -84,17 +86,17 @@ fn lister() -> Result<PathBuf, String> {
 
 /// Lists the public items of a crate without those of traits that the compiler derives or that all
 /// types implement, and compares them with `host-tests/interface`, or writes them there.
-fn interface(lister: &Path, name: &str, writes: bool) -> Result<(), String> {
+fn interface(lister: &Path, name: &str, is_update: bool) -> Result<(), String> {
     let file = workspace::root().join("host-tests/interface").join(name).with_extension("txt");
     // The lister runs cargo of the nightly compiler by itself.
-    of_compiler("nightly")?;
+    cargo_of("nightly")?;
     let mut list = Command::new(lister);
     list.current_dir(workspace::root()).env("RUSTUP_TOOLCHAIN", "nightly");
     list.args(["--package", name, "-sss", "--color", "never", "--target-dir"]);
     list.arg(workspace::target().join("release-checks/interface"));
     let now = process::capture(&mut list)?;
     let failed = |error| format!("{}: {error}", file.display());
-    if writes {
+    if is_update {
         return fs::write(&file, now).map_err(failed);
     }
     let kept = fs::read_to_string(&file).map_err(failed)?;

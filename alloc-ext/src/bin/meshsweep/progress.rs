@@ -3,6 +3,7 @@
 use indicatif::{ProgressBar, ProgressStyle};
 use meshsweep::builder::Stage;
 use std::io::IsTerminal;
+use std::sync::Mutex;
 
 /// A bar that is cleared when it is dropped.
 pub struct Bar(Option<ProgressBar>);
@@ -38,6 +39,27 @@ impl Drop for Bar {
     fn drop(&mut self) {
         if let Some(bar) = &self.0 {
             bar.finish_and_clear();
+        }
+    }
+}
+
+/// A bar that several threads show. Its length is known at the first step.
+pub struct SharedBar {
+    doing: &'static str,
+    things: &'static str,
+    bar: Mutex<Option<Bar>>,
+}
+
+impl SharedBar {
+    /// `doing` is a verb, `things` a noun.
+    pub const fn new(doing: &'static str, things: &'static str) -> Self {
+        Self { doing, things, bar: Mutex::new(None) }
+    }
+
+    /// So many of `of` things are done.
+    pub fn show(&self, done: usize, of: usize) {
+        if let Ok(mut bar) = self.bar.lock() {
+            bar.get_or_insert_with(|| Bar::new(of, self.doing, self.things)).show(done);
         }
     }
 }

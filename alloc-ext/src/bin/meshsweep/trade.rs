@@ -14,14 +14,23 @@ use crate::mesh_file;
 use crate::output::{Output, refuse_other_extension, refuse_same_file};
 use measured::measured;
 use meshsweep::trade::Question;
+use std::ffi::OsStr;
+
+/// A word as a shell reads it.
+fn quoted(word: &OsStr) -> String {
+    let word = word.to_string_lossy().into_owned();
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./=:,+".contains(c);
+    let is_plain = !word.is_empty() && word.chars().all(is_plain);
+    if is_plain { word } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
 
 pub fn run(args: &TradeArgs) -> Result<(), Failure> {
     if let (Some(other), Some(keep)) = (&args.other, args.keep) {
         return pair::run(args, other, keep);
     }
     if args.limits.is_any() {
-        let what = "--flash, --ram, --rate and --cpu are of two meshes here; build takes them for \
-                    one, and chooses its setting";
+        let what = "--flash, --ram, --rate and --cpu go with two meshes; for one, give them to \
+                    meshsweep build";
         return Err(Failure::Usage { what: what.to_owned() });
     }
     if args.is_curve() {

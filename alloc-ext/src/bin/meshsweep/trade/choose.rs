@@ -136,7 +136,7 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
     }
 }
 
-/// The same as the rows of `trade --json`.
+/// The choice as JSON. Rows are as in `trade --json`.
 pub fn as_json(Chosen { first, second, points: (points, kind), .. }: &Chosen) -> Value {
     json!({
         "points": points,

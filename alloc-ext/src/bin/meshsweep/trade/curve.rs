@@ -7,7 +7,7 @@ use crate::args::{At, ReadArgs, TradeArgs};
 use crate::failure::Failure;
 use crate::mesh_file;
 use crate::output::Output;
-use crate::progress::Bar;
+use crate::progress::SharedBar;
 use meshsweep::BuildError;
 use meshsweep::builder::Builder;
 use meshsweep::counted::Counted;
@@ -20,7 +20,6 @@ use meshsweep_core::{Blob, Curve};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::Path;
-use std::sync::Mutex;
 
 /// Columns of the search, after those of every table.
 const COLUMNS: [(&str, usize); 3] = [("work", 8), ("worst", 8), ("M4F worst", 9)];
@@ -82,12 +81,8 @@ pub fn measured(
         Err(error) => return Err(Failure::Search { file, error }),
     };
     let settings = trade::standard_of_curves(diagonal, is_fence, made);
-    let bar = Mutex::new(None);
-    let progress = |done, of| {
-        if let Ok(mut bar) = bar.lock() {
-            bar.get_or_insert_with(|| Bar::new(of, "measuring", "steps")).show(done);
-        }
-    };
+    let bar = SharedBar::new("measuring", "steps");
+    let progress = |done, of| bar.show(done, of);
     let trade = trade::measure_curves(&polylines, &points, &settings, &progress)
         .map_err(|error| Failure::Search { file, error })?;
     drop(bar);

@@ -3,12 +3,11 @@
 use crate::args::{At, Given, ReadArgs};
 use crate::failure::Failure;
 use crate::mesh_file;
-use crate::progress::Bar;
+use crate::progress::SharedBar;
 use crate::queries::Queries;
 use meshsweep::load::Loaded;
 use meshsweep::trade::{self, Points, Question, Trade};
 use std::path::Path;
-use std::sync::Mutex;
 
 /// A measurement, and what it is of.
 pub struct Measured {
@@ -51,13 +50,8 @@ pub fn measured(
         Question::FirstHit => trade::standard_of_segments(),
         _ => trade::standard(diagonal, mesh.triangles.len(), kind),
     };
-    // Its length is known at the first step.
-    let bar = Mutex::new(None);
-    let progress = |done, of| {
-        if let Ok(mut bar) = bar.lock() {
-            bar.get_or_insert_with(|| Bar::new(of, "measuring", "steps")).show(done);
-        }
-    };
+    let bar = SharedBar::new("measuring", "steps");
+    let progress = |done, of| bar.show(done, of);
     let trade = trade::measure(&source, &loaded, &points, &settings, &progress)
         .map_err(|error| Failure::Search { file: file.to_owned(), error })?;
     drop(bar);

@@ -1,11 +1,12 @@
 //! `meshsweep trade` of two meshes: which structures tell that the second one, moved by poses,
 //! keeps a distance from the first, and what they cost.
 
+use super::quoted;
 use super::table::{of_boards, write_line};
 use crate::args::{MovedArgs, TradeArgs};
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::progress::Bar;
+use crate::progress::SharedBar;
 use crate::{mesh_file, poses};
 use meshsweep::counted::Counted;
 use meshsweep::mesh::Unit;
@@ -16,7 +17,6 @@ use meshsweep::trade::{
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
 /// Headings of the columns after the structure, each with its width.
 const COLUMNS: [(&str, usize); 10] = [
@@ -82,12 +82,8 @@ pub fn run(
         return Err(Failure::Usage { what: "--poses: no pose to ask about".to_owned() });
     }
     let all: Vec<_> = queries.rows.iter().map(|row| poses::of_row(*row)).collect();
-    let bar = Mutex::new(None);
-    let progress = |done, of| {
-        if let Ok(mut bar) = bar.lock() {
-            bar.get_or_insert_with(|| Bar::new(of, "measuring", "structures")).show(done);
-        }
-    };
+    let bar = SharedBar::new("measuring", "structures");
+    let progress = |done, of| bar.show(done, of);
     let meshes = [(&sources[0], &loaded[0]), (&sources[1], &loaded[1])];
     let trade = measure_pair(meshes, &all, keep, &progress).map_err(|error| match error {
         PairError::Refused(index, error) => Failure::Query { place: queries.place(index), error },
@@ -116,13 +112,6 @@ pub fn run(
     })?;
     let both = || PathBuf::from(format!("{} and {}", files[0].display(), files[1].display()));
     unmet.map_or(Ok(()), |what| Err(Failure::Limits { file: both(), what }))
-}
-
-/// A name as a shell takes it.
-fn quoted(file: &Path) -> String {
-    let name = file.display().to_string();
-    let is_plain = |c: char| c.is_alphanumeric() || "-_./".contains(c);
-    if name.chars().all(is_plain) { name } else { format!("'{}'", name.replace('\'', "'\\''")) }
 }
 
 impl Measured<'_> {
@@ -174,7 +163,7 @@ impl Measured<'_> {
         for (mesh, blob) in [(&*self.args.mesh, "first"), (self.other, "second")] {
             let format = self.args.read.format.filter(|_| mesh == Path::new("-"));
             let format = format.map_or_else(String::new, |format| format!(" --format {format}"));
-            let (mesh, structure) = (quoted(mesh), first.structure);
+            let (mesh, structure) = (quoted(mesh.as_os_str()), first.structure);
             writeln!(out, "  meshsweep build {mesh}{format}{unit} -o {blob}.msw {structure}")?;
         }
         match second {

@@ -16,6 +16,7 @@ mod scene;
 mod slices;
 
 use super::measured::Measured;
+use super::quoted;
 use super::table;
 use crate::failure::Failure;
 use crate::output::Output;
@@ -74,13 +75,7 @@ fn fill(out: &mut dyn Write, data: &Value) -> io::Result<()> {
 
 /// The command that runs, as a shell reads it.
 fn command() -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "-_./=:,+".contains(c);
-    let quoted = |word: std::ffi::OsString| {
-        let word = word.to_string_lossy().into_owned();
-        let is_plain = !word.is_empty() && word.chars().all(is_plain);
-        if is_plain { word } else { format!("'{}'", word.replace('\'', "'\\''")) }
-    };
-    let words = std::env::args_os().skip(1).map(quoted);
+    let words = std::env::args_os().skip(1).map(|word| quoted(&word));
     std::iter::once("meshsweep".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 

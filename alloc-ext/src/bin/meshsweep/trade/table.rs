@@ -28,7 +28,7 @@ const COLUMNS: [(&str, usize); 11] = [
     ("host ns", 8),
 ];
 
-/// The column of segments alone, and its place among the columns.
+/// The column of segments and of curves, and its place among the columns.
 const UNDECIDED: (usize, (&str, usize)) = (2, ("undecided", 9));
 
 /// Whether a table has a column of what is undecided.
@@ -196,7 +196,7 @@ fn write_notes(out: &mut dyn Write, question: Question, rows: &[Row]) -> io::Res
     writeln!(
         out,
         "\n{width} {found} M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted; most \
-         is of these {}s, meshsweep worst finds more.\nflash: bytes of the blob. scratch: bytes, \
+         is of these {}s, meshsweep worst finds more;\nof a distance field it is of any point. flash: bytes of the blob. scratch: bytes, \
          memory kept between queries among them. stack: bytes of a\nCortex-M4F's, at most. \
          host ns: of this machine, on one thread.",
         noun(question)
@@ -220,7 +220,7 @@ pub(super) fn write_predicted(out: &mut dyn Write, rows: &[Row]) -> io::Result<(
             let line = format!(
                 "  {}, {}: {:.0} % (median {:.0} %)",
                 board.name(),
-                setting.search().name(),
+                row.search.name(),
                 100.0 * found.error,
                 100.0 * found.typical
             );

@@ -7,7 +7,7 @@ const unit = data.unit ? ` (${data.unit})` : "";
 const length = (x) => (data.unit ? `${short(x)} ${data.unit}` : short(x));
 const COLOURS = {
   "box tree": "#0072b2", sweep: "#d55e00", "tight hull": "#009e73", "cut level": "#cc79a7",
-  triboxes: "#b8860b",
+  triboxes: "#b8860b", "distance field": "#56b4e9", "field first": "#003f88",
 };
 const BODY_COLOURS = { mesh: "#9a9a9a", tight: "#009e73", triboxes: "#e69f00", level: "#cc79a7" };
 const HEAT = [[0, "#f3efe0"], [0.5, "#f4a04a"], [1, "#a50f15"]];
