@@ -364,17 +364,18 @@ impl fmt::Display for BuildError {
             ),
             Self::FieldNotNarrow { error, bytes, widest } => write!(
                 f,
-                "no field of {bytes} bytes or fewer has intervals of at most {} everywhere: the \
-                 narrowest found needs an --sdf-error of about {}; ask for that, for an --sdf-rel \
-                 if it is far from the surface, or for --sdf-kind solid if it is inside",
+                "no field of {bytes} bytes or fewer was found with intervals of at most {} \
+                 everywhere: the narrowest one needs an --sdf-error of about {} or more; ask for \
+                 that, for a larger --sdf-rel if it is far from the surface, or for --sdf-kind \
+                 solid if it is inside",
                 Typed(*error),
                 About(*widest)
             ),
             Self::FieldNeedsBytes { error, bytes, needed } => write!(
                 f,
                 "a field with intervals of at most {} everywhere takes about {needed} bytes, more \
-                 than {bytes}: give it more --sdf bytes, ask for a larger --sdf-error or --sdf-rel, \
-                 or for less --sdf-margin",
+                 than {bytes}: ask for a larger --sdf-error or --sdf-rel, for less --sdf-margin, or \
+                 for more --sdf bytes where their range has more",
                 Typed(*error)
             ),
             Self::FieldTooSmall { bytes, least } => write!(

@@ -3,9 +3,9 @@
 use super::domain::Domain;
 use meshsweep_core::SdfKind;
 
-/// What the questions in f32 add to a width, units: one on each side for the point's place, and
-/// less than one in each end for rounding.
-const OF_F32: f64 = 4.0;
+/// What the questions in f32 add to a width, units: three on each side of a point on an upper face
+/// of the field, which is asked as one beyond it, and less than one in each end for rounding.
+const OF_F32: f64 = 8.0;
 
 /// A width that is allowed everywhere, and how it grows with the distance.
 #[derive(Clone, Copy, Debug)]

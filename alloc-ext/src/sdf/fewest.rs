@@ -53,13 +53,24 @@ impl Work<'_> {
             _ => most,
         };
         let lattice = match is_wanted(SdfLayout::Lattice) {
-            true => self.fewest_lattice(most_of_lattice, watch.part(0.5, 1.0))?,
+            true => match self.fewest_lattice(most_of_lattice, watch.part(0.5, 1.0)) {
+                Err(BuildError::FieldUnit { .. } | BuildError::FieldTooWide { .. })
+                    if matches!(tree, Found::Field(_)) =>
+                {
+                    Found::NoRoom
+                }
+                found => found?,
+            },
             false => Found::NoRoom,
         };
         let bytes = self.options.bytes;
         let not_narrow = |taken| BuildError::FieldNotNarrow { error, bytes, widest: taken * error };
         let needs = |needed| BuildError::FieldNeedsBytes { error, bytes, needed };
         match (lattice, tree) {
+            // The smallest lattice may be larger than a tree of one leaf.
+            (Found::Field(a), Found::Field(b)) => {
+                Ok(if a.report.bytes <= b.report.bytes { a } else { b })
+            }
             (Found::Field(field), _) | (_, Found::Field(field)) => Ok(field),
             (Found::Bytes(n), Found::Bytes(m)) => Err(needs(n.min(m))),
             (Found::Bytes(n), _) | (_, Found::Bytes(n)) => Err(needs(n)),
@@ -70,10 +81,16 @@ impl Work<'_> {
     }
 
     fn fewest_tree(&self, most_bytes: usize, watch: Watch<'_>) -> Result<Found, BuildError> {
-        let (mut best, mut before) = (Found::NoRoom, None);
+        let (mut best, mut before, mut refused) = (Found::NoRoom, None, None);
         for (number, roots) in ROOTS.into_iter().enumerate() {
             let part = |number: usize| number as f64 / ROOTS.len() as f64;
-            let domain = Domain::of_roots(&self.surface, self.options.margin, roots)?;
+            let domain = match Domain::of_roots(&self.surface, self.options.margin, roots) {
+                Err(error @ BuildError::FieldUnit { .. }) => {
+                    refused = Some(error);
+                    continue;
+                }
+                domain => domain?,
+            };
             let is_last = number + 1 == ROOTS.len();
             // Boxes that are half as large again take that much more of the width, about.
             let helps = matches!(best, Found::Taken(taken) if taken < 2.0);
@@ -88,7 +105,13 @@ impl Work<'_> {
             let watch = watch.part(part(number), part(number + 1));
             let make =
                 |maker: &tree::Maker<'_>, watch: Watch<'_>| tree::narrow(maker, most_bytes, watch);
-            let found = self.with_maker(&domain, watch, make)?;
+            let found = match self.with_maker(&domain, watch, make) {
+                Err(error @ BuildError::FieldUnit { .. }) => {
+                    refused = Some(error);
+                    continue;
+                }
+                found => found?,
+            };
             best = match (found, best) {
                 (Some(Narrow::Tree(tree)), _) => Found::Field(self.of_tree(&domain, tree)),
                 (Some(Narrow::Bytes(n)), Found::NoRoom | Found::Taken(_)) => Found::Bytes(n),
@@ -98,7 +121,10 @@ impl Work<'_> {
                 (_, best) => best,
             };
         }
-        Ok(best)
+        match (best, refused) {
+            (Found::NoRoom, Some(error)) => Err(error),
+            (best, _) => Ok(best),
+        }
     }
 
     fn fewest_lattice(&self, most_bytes: usize, watch: Watch<'_>) -> Result<Found, BuildError> {

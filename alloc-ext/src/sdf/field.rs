@@ -57,7 +57,7 @@ pub struct SdfReport {
     pub other_width: Option<f64>,
     /// Largest width at those samples. Between them an interval that is cut at 0 may be wider.
     pub largest_width: f64,
-    /// No interval in the field is wider: proved, and with what f32 adds.
+    /// No interval in the field is wider: proved, with what f32 adds.
     pub widest: f64,
     /// Largest error of a lattice's cell, below or above; largest width of a tree's leaf.
     pub largest_error: f64,
@@ -149,6 +149,7 @@ impl<'a> Work<'a> {
         let domain = Domain::of(&self.surface, self.options.margin, most_bytes)?;
         let allowed = self.allowed(&domain);
         let truth = Truth::new(self.input.mesh, domain, kind, self.sides);
+        let truth = truth.with_off(self.off(&domain));
         watch.step(1, 8)?;
         let samples = Samples::of(&truth, &domain, watch.part(0.125, 0.875))?;
         let codes = Codes::of(&truth, &domain, &samples, allowed);
@@ -247,9 +248,10 @@ impl<'a> Work<'a> {
             let size = self.surface.high - self.surface.low;
             return Err(BuildError::FieldUnit { side: size.max_element() });
         }
-        let truth = &Truth::new(self.input.mesh, *domain, self.kind, self.sides);
-        watch.step(2, 100)?;
         let (off, allowed) = (self.off(domain), self.allowed(domain));
+        let truth = Truth::new(self.input.mesh, *domain, self.kind, self.sides);
+        let truth = &truth.with_off(off);
+        watch.step(2, 100)?;
         make(&tree::Maker { truth, domain, off, allowed }, watch.part(0.02, 1.0))
     }
 

@@ -7,7 +7,7 @@
 
 use super::bound::{flat, greatest, least, most, most_of_facet};
 use super::function::{Function, Linear};
-use super::region::{Near, Region, TIE, parts};
+use super::region::{MARGIN, Near, Region, TIE, parts};
 use super::truth::{Side, Truth};
 use glam::DVec3;
 use meshsweep_core::SdfKind;
@@ -60,6 +60,12 @@ fn needed(
         (SdfKind::Surface, _) | (_, Some(Side::Outside)) => {
             let low = (-least(linear, region, nears)).min(to_zero());
             Errors { low, high: above() }
+        }
+        // So near inside the input may be outside.
+        (SdfKind::Solid, Some(Side::Inside))
+            if truth.off > 0.0 && region.least <= region.radius + truth.off + MARGIN =>
+        {
+            Errors { low: to_zero(), high: -least(&negative, region, nears) }
         }
         (SdfKind::Solid, Some(Side::Inside)) => Errors { low: to_zero(), high: f64::NEG_INFINITY },
         (SdfKind::Solid, Some(Side::Undecided)) => Errors { low: to_zero(), high: above() },

@@ -35,6 +35,8 @@ struct Windings<'a> {
 pub(super) struct Truth<'a> {
     pub facets: Facets,
     pub kind: SdfKind,
+    /// How far the input may be from the mesh, units.
+    pub off: f64,
     domain: Domain,
     windings: Option<Windings<'a>>,
 }
@@ -54,7 +56,12 @@ impl<'a> Truth<'a> {
             .map(|(triangle, at)| Facet::new(at.map(|p| domain.place(p)), tells(triangle)));
         let facets = Facets::new(facets.collect());
         let windings = sides.map(|sides| Windings { sides, tree: FaceTree::new(&sides.faces) });
-        Self { facets, kind, domain, windings }
+        Self { facets, kind, off: 0.0, domain, windings }
+    }
+
+    /// The same of an input that may be so far from the mesh, units.
+    pub fn with_off(self, off: f64) -> Self {
+        Self { off, ..self }
     }
 
     /// The side of a point of the frame that is not on the surface. `nears` are the triangles that

@@ -173,9 +173,10 @@ impl Limits {
         Board::ALL.iter().zip(all).find(|(of, _)| **of == self.board()).map(|(_, found)| found)
     }
 
-    /// Chooses a setting that meets all limits: with a limit of the error the one of the fewest
-    /// mean instructions, else the one of the smallest error. The rate is compared with the
-    /// costliest query. [`measure()`](super::measure()) gives the
+    /// Chooses a setting that meets all limits, of those with the fewest undecided sides and
+    /// segments: with a limit of the error the one of the fewest mean instructions, else the one of
+    /// the smallest error. The second one is the best of the others that has less of something. The
+    /// rate is compared with the costliest query. [`measure()`](super::measure()) gives the
     /// settings.
     ///
     /// # Errors
@@ -193,7 +194,11 @@ impl Limits {
         let (Some(&first), Some((_, built))) = (meeting.first(), built) else {
             return Err(self.unmet(rows()));
         };
-        let second = meeting.get(1).map(|&row| row.clone());
+        // One that is worse in all is no choice.
+        let values =
+            |row: &Row| [row.error(), self.mean(row.boards), row.flash as f64, row.scratch as f64];
+        let is_choice = |row: &&&Row| values(row).iter().zip(values(first)).any(|(a, b)| *a < b);
+        let second = meeting.iter().skip(1).find(is_choice).map(|&row| row.clone());
         Ok(Choice { first: first.clone(), second, built: built.clone() })
     }
 
@@ -220,7 +225,13 @@ impl Limits {
             a.false_alarms.cmp(&b.false_alarms).then(cost)
         });
         if let Some(&first) = meeting.first() {
-            return Ok((first, meeting.get(1).copied()));
+            // One that is worse in all is no choice.
+            let values = |row: &PairRow| {
+                [mean(row), row.flash.iter().sum::<usize>() as f64, row.scratch as f64]
+            };
+            let is_choice =
+                |row: &&&PairRow| values(row).iter().zip(values(first)).any(|(a, b)| *a < b);
+            return Ok((first, meeting.iter().skip(1).find(is_choice).copied()));
         }
         let excess = |row: &&PairRow| self.excess(&row.costs());
         let nearest = rows().min_by(|a, b| excess(a).total_cmp(&excess(b)));
@@ -257,21 +268,20 @@ impl Limits {
         self.limited(costs).iter().all(|&(value, limit)| exceeded(value, limit).is_none())
     }
 
-    /// How many times its limit the value is that exceeds it most.
+    /// How many times their limits the values are that exceed them, in all.
     fn excess(&self, costs: &Costs) -> f64 {
         let ratio = |limit, value| if limit > 0.0 { value / limit } else { f64::INFINITY };
         let all = self.limited(costs).into_iter();
-        all.filter_map(|(value, limit)| Some(ratio(exceeded(value, limit)?, value)))
-            .fold(0.0, f64::max)
+        all.filter_map(|(value, limit)| Some(ratio(exceeded(value, limit)?, value))).sum()
     }
 
     /// The order in which settings are preferred.
     fn compare(&self, a: &Row, b: &Row) -> Ordering {
         let key = |row: &Row| {
-            let mean = self.mean(row.boards);
+            let (undecided, mean) = (row.undecided as f64, self.mean(row.boards));
             match self.error {
-                Some(_) => [mean, row.error(), row.flash as f64],
-                None => [row.error(), mean, row.flash as f64],
+                Some(_) => [undecided, mean, row.error(), row.flash as f64],
+                None => [undecided, row.error(), mean, row.flash as f64],
             }
         };
         let pairs = key(a).into_iter().zip(key(b));

@@ -856,6 +856,7 @@ def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
     slack = moved.reshape(moved.shape + (1,) * (found.ndim - 1))
     is_held = slack == 0
     names = found.dtype.names or ()
+    is_unsigned = (found.lower >= 0) & (found.upper > 0) if "upper" in names else False
     lower = np.nextafter(found.lower - slack, np.float32(-np.inf))
     lower = np.where(is_held, found.lower, lower)
     if "upper" in names:
@@ -865,7 +866,7 @@ def _widened(found: Records, moved: NDArray[np.float32] | None) -> Records:
         certain = np.where(lower > 0, Side.OUTSIDE, np.where(upper < 0, Side.INSIDE, 0))
         # A field that does not tell sides keeps its distances at 0 and above.
         kept = np.where(is_held | (found.side == certain), found.side, 0)
-        is_plain = (found.side == 0) & (found.lower >= 0) & (found.upper > 0)
+        is_plain = (found.side == 0) & is_unsigned
         lower = np.where(is_plain, np.maximum(lower, 0), lower)
         found.side[:] = kept
     else:

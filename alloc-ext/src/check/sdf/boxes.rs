@@ -295,7 +295,11 @@ impl Cell<'_> {
         let is_solid = self.field.is_solid();
         let inside = || {
             if is_solid {
-                return about.is_at_most_zero(part.half);
+                // Nearer to the surface the file may be outside.
+                let is_deep = |seen: &Seen| seen.height > r + self.moved + MARGIN;
+                let is_file = self.moved == 0.0 || seen.iter().all(is_deep);
+                return about.is_at_most_zero(part.half)
+                    && (is_file || about.is_below_high_inside(part.half, seen));
             }
             is_within(-1.0, about.low) && about.is_below_high_inside(part.half, seen)
         };

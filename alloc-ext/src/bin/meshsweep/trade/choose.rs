@@ -69,10 +69,15 @@ pub fn choose(args: &BuildArgs) -> Result<(Built, Chosen), Failure> {
 pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
     let Chosen { limits, first, second, needles, points: (points, kind), .. } = chosen;
     let question = first.setting.question;
-    let why = match limits.error {
-        Some(_) => "fewest instructions of those that meet all limits",
-        None => "smallest error of those that meet all limits",
+    let decided = match question {
+        Question::ClosestPoint => "",
+        _ => "fewest undecided, then ",
     };
+    let least = match limits.error {
+        Some(_) => "fewest instructions",
+        None => "smallest error",
+    };
+    let why = format!("{decided}{least} of those that meet all limits");
     writeln!(out, "chosen: {}: {}", first.name(), first.setting.dials())?;
     let (of, by) = match (question, first.setting.how, first.setting.recipe) {
         (Question::FirstHit, _, Recipe::Hull(_)) => ("segments", ", by outer_hits"),
@@ -132,7 +137,7 @@ pub fn write(out: &mut dyn Write, chosen: &Chosen) -> io::Result<()> {
             write_costs(out, limits, second)?;
             writeln!(out, "  instead of the first: {}", gain(limits, first, second))
         }
-        None => writeln!(out, "second: nothing else meets them"),
+        None => writeln!(out, "second: nothing else meets them and has less of anything"),
     }
 }
 
@@ -153,7 +158,7 @@ fn write_costs(out: &mut dyn Write, limits: &Limits, row: &Row) -> io::Result<()
     if let Some(found) = found {
         write!(
             out,
-            ", {:.0} instructions of a {}, at most {:.0}",
+            ", {:.0} instructions of a {}, at most {:.0} of these",
             found.mean,
             limits.board().name(),
             found.at_most()

@@ -170,7 +170,7 @@ impl Measured<'_> {
             Some(second) => {
                 writeln!(out, "second: {}: {}", second.structure.name(), costs(second))
             }
-            None => writeln!(out, "second: nothing else meets them"),
+            None => writeln!(out, "second: nothing else meets them and has less of anything"),
         }
     }
 

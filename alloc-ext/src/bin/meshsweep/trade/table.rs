@@ -188,17 +188,17 @@ fn write_notes(out: &mut dyn Write, question: Question, rows: &[Row]) -> io::Res
         ),
         _ => (
             "error, median: width of the interval that holds, the largest and the median of these \
-             points, in\nthe mesh's unit; at other points it may be wider, and holds.",
+             points, in\nthe mesh's unit; at other points it may be wider, and holds. ",
             "found: the distance in f64 less the\nlower end, and the upper end less that distance, \
              the largest.",
         ),
     };
     writeln!(
         out,
-        "\n{width} {found} M4F, M0: instructions of a\nCortex-M4F and a Cortex-M0, predicted; most \
-         is of these {}s, meshsweep worst finds more;\nof a distance field it is of any point. flash: bytes of the blob. scratch: bytes, \
-         memory kept between queries among them. stack: bytes of a\nCortex-M4F's, at most. \
-         host ns: of this machine, on one thread.",
+        "\n{width}{found}\nM4F, M0: instructions of a Cortex-M4F and a Cortex-M0, predicted; most \
+         is of these {}s,\nmeshsweep worst finds more; of a distance field it is of any point. \
+         flash: bytes of the blob.\nscratch: bytes, memory kept between queries among them. stack: \
+         bytes of a Cortex-M4F's, at most.\nhost ns: of this machine, on one thread.",
         noun(question)
     )?;
     write_predicted(out, rows)
