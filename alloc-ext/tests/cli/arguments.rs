@@ -122,7 +122,8 @@ fn every_command_s_help_has_examples_that_run() {
     write_csv(&directory.join("points.csv"), &points);
     write_raw(&directory.join("points.f32"), &points);
     write_csv(&directory.join("segments.csv"), &segments);
-    write_csv(&directory.join("path.csv"), &[[30f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]; 3]);
+    let path = [30f32, 30.0, 300.0].map(|x| [x, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    write_csv(&directory.join("path.csv"), &path);
     fs::copy(fixture("fence.csv"), directory.join("fence.csv")).unwrap();
     for frame in ["rest.ply", "bent.ply"] {
         fs::copy(&scan, directory.join(frame)).unwrap();
