@@ -5,8 +5,8 @@
 //!
 //! *Symbols.* d: distance from the surface; s: signed distance, negative inside. F: the cell's
 //! function, g its gradient at the centre c. h: half extents of the box, r: half its diagonal. q: a
-//! point of the surface, at first the nearest to c. n: unit vector from a triangle to c, D: how far c
-//! is above the triangle along it.
+//! point of the surface, at first the nearest to c. n: unit vector from a triangle to c, D: how far
+//! c is above the triangle along it.
 //!
 //! *Least.* d(x) is the least distance of a triangle, and each is at least linear
 //! ([`super::region`]). So d − F is at least the least of D − Σ |n − g|ₖ hₖ.
@@ -14,8 +14,8 @@
 //! *Most.* d(x) ≤ |x − q| for each point *q* of the surface, also for a mean of such bounds. They
 //! are convex: the eight corners are all to be looked at. A mean of two points on both sides of a
 //! ridge of the distance is of second order there, where each alone is not. The distance of the
-//! nearest triangle is such a bound too. Over a flat triangle it is the distance itself, whatever the
-//! box's size: by points alone, boxes at a height t could only be as large as √(t · slack).
+//! nearest triangle is such a bound too. Over a flat triangle it is the distance itself, whatever
+//! the box's size: by points alone, boxes at a height t could only be as large as √(t · slack).
 //!
 //! *Flat.* Let all of the surface within R = d(c) + 2.3r of the centre lie between the planes
 //! |n·(y − q)| ≤ δ ≤ r/4, and let all of its triangles there have winding number 0 in front, 1

@@ -49,9 +49,9 @@ pub struct SdfReport {
     pub steps: u32,
     /// Bytes of the section.
     pub bytes: usize,
-    /// Mean width of the intervals at the samples in the mesh's box and the margin, up to a tenth of
-    /// the diagonal from the surface. Of a signed field all samples inside count too, of a solid one
-    /// none.
+    /// Mean width of the intervals at the samples in the mesh's box and the margin, up to a tenth
+    /// of the diagonal from the surface. Of a signed field all samples inside count too, of a solid
+    /// one none.
     pub mean_width: f64,
     /// The same of the other layout, if it was built too.
     pub other_width: Option<f64>,

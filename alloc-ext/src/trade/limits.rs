@@ -204,8 +204,8 @@ impl Limits {
 
     /// Chooses a structure of two models that meets all limits but that of the error, which pairs
     /// have not. It has the fewest [false alarms](PairRow::false_alarms); of equal ones the fewest
-    /// mean instructions, then the least flash. Structures that [missed](PairRow::missed) a pose are
-    /// left out. The second one is the best of the others that meet the limits. Flash is both
+    /// mean instructions, then the least flash. Structures that [missed](PairRow::missed) a pose
+    /// are left out. The second one is the best of the others that meet the limits. Flash is both
     /// blobs'. [`measure_pair`](super::measure_pair()) gives the structures.
     ///
     /// # Errors

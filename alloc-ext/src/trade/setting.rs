@@ -69,9 +69,10 @@ impl Setting {
     setters! {
         /// Sets the [budget](Self::budget).
         with_budget: Budget => budget,
-        /// Sets [what a query takes over from the one before](Self::how). Box trees take all. Sweeps
-        /// and curves take [`How::Fresh`] and [`How::Coherent`], all else `Fresh` alone. What is not
-        /// taken is asked as `Fresh`.
+        /// Sets [what a query takes over from the one before](Self::how).
+        ///
+        /// Box trees take every [`How`]. Sweeps and curves take `Fresh` and `Coherent`. Other
+        /// structures take `Fresh`, and are asked so whatever is set.
         with_how: How => how,
     }
 

@@ -145,8 +145,8 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Instructions of a closest point, a first hit or a question to curves with this work, as [`trade`]
-/// predicts them.
+/// Instructions of a closest point, a first hit or a question to curves with this work, as
+/// [`trade`] predicts them.
 fn instructions(
     Subject { question, structure }: &Subject<'_>,
     place: &[[f32; 3]],

@@ -4,8 +4,8 @@
 //! a point x it is at least as far as x is above the highest. Over a box with the centre c that is
 //! h + n·(x − c), h the height of c. Taken along the way from a near point of the triangle to c, it
 //! is the distance but for rounding, and it holds whatever rounding did to n. The distance of the
-//! surface is the least of those. It is at most |x − q|, q any point of the surface, and at most the
-//! distance of any triangle: both are convex, so the eight corners bound them against a linear
+//! surface is the least of those. It is at most |x − q|, q any point of the surface, and at most
+//! the distance of any triangle: both are convex, so the eight corners bound them against a linear
 //! function. The side is the same all over the box, for the surface does not cross it.
 //!
 //! *Across the surface.* Let all of the surface within 4r of c, the box's half diagonal being r,

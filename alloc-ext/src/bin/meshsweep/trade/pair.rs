@@ -214,7 +214,8 @@ impl Measured<'_> {
             out,
             "\nmean, at most: instructions of a {}, predicted; at most is of the costliest pose, \
              times the\nfit's greatest ratio. clear: poses proved to keep the distance. alarms: \
-             poses that keep it and are\nnot proved to. undecided: neither clear nor proved nearer. missed: \
+             poses that keep it and are\nnot proved to. undecided: neither clear nor proved \
+             nearer. missed: \
              poses that are clear of the hull's\nsurface and not of the mesh. flash: bytes of the \
              blobs. scratch: bytes.{}\n\
              error of a predicted mean, over the meshes that it was fitted to and tested with",
