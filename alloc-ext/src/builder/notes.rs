@@ -180,11 +180,11 @@ fn of_sdf(options: &Options, report: &SdfReport) -> Vec<String> {
         ),
     });
     let of_tree = report.layout == SdfLayout::Tree;
-    if let Some(width) = report.other_width {
+    if let Some(widths) = report.drafted_widths {
         let [kept, other] = if of_tree { ["tree", "lattice"] } else { ["lattice", "tree"] };
+        let [of_kept, of_other] = widths.map(About);
         texts.push(format!(
-            "{kept} kept: intervals of a {other} of as many bytes would be about {} wide",
-            About(width)
+            "{kept} kept: before the proof {of_kept} wide, a {other} of as many bytes {of_other}"
         ));
     }
     texts.push(format!(

@@ -1,7 +1,9 @@
 //! The build of a field: which one is kept.
 
+use super::domain::Domain;
 use super::field::{Field, SdfReport, Work};
 use super::options::SdfOptions;
+use super::tree::{self, Beside};
 use crate::bvh::FileSides;
 use crate::clock::Instant;
 use crate::emit::Sections;
@@ -13,11 +15,11 @@ use crate::surface::scale_exponent;
 use glam::{DVec3, Vec3};
 use meshsweep_core::internal::geom::Aabb;
 use meshsweep_core::internal::num::{exp2, up_to_f32};
-use meshsweep_core::internal::sdf::format::layout::{SDF_BYTES, tree};
+use meshsweep_core::internal::sdf::format::layout::{SDF_BYTES, tree as tree_layout};
 use meshsweep_core::{SdfKind, SdfLayout, SectionKind};
 
 /// Bytes of the smallest tree: the header and one leaf.
-const LEAST_OF_TREE: u32 = (SDF_BYTES + tree::ENTRY_BYTES) as u32;
+const LEAST_OF_TREE: u32 = (SDF_BYTES + tree_layout::ENTRY_BYTES) as u32;
 
 /// Builds the field of a mesh. Same mesh and options, same bytes, on any number of threads.
 ///
@@ -58,12 +60,12 @@ pub fn build(
         (None, false) => SdfKind::Signed,
     };
     let of = Work { input, surface, options, kind, sides: sides.as_ref() };
-    let (Field { body, report }, other) = match options.error {
-        Some(error) => (of.fewest(error, watch)?, None),
+    let Field { body, report } = match options.error {
+        Some(error) => of.fewest(error, watch)?,
         None => of.narrowest(watch)?,
     };
     let time = started.elapsed();
-    let report = SdfReport { lacks_sides, other_width: other, time, ..report };
+    let report = SdfReport { lacks_sides, time, ..report };
     let scale = scale_exponent(mesh);
     let local = exp2(-scale);
     let corner = |p: DVec3| -> Vec3 { (p * local).as_vec3() };
@@ -78,32 +80,65 @@ pub fn build(
 }
 
 impl Work<'_> {
-    /// The field of the smaller mean width, and the mean width of the other.
-    fn narrowest(&self, watch: Watch<'_>) -> Result<(Field, Option<f64>), BuildError> {
+    /// The field of the smaller mean width. Both layouts are drafted and one is proved: a proof
+    /// takes half of the time, and widens few cells.
+    fn narrowest(&self, watch: Watch<'_>) -> Result<Field, BuildError> {
         let is_wanted = |layout| self.options.layout.is_none_or(|wanted| wanted == layout);
-        let lattice = match is_wanted(SdfLayout::Lattice) {
-            true => match self.lattice(watch.part(0.0, 0.5)) {
-                Err(BuildError::FieldTooWide { .. }) => None,
-                found => Some(found?),
-            },
-            false => None,
-        };
-        if self.options.layout == Some(SdfLayout::Tree) && self.options.bytes < LEAST_OF_TREE {
-            let bytes = self.options.bytes;
+        let bytes = self.options.bytes;
+        if self.options.layout == Some(SdfLayout::Tree) && bytes < LEAST_OF_TREE {
             return Err(BuildError::FieldTooSmall { bytes, least: LEAST_OF_TREE });
         }
-        let tree = match is_wanted(SdfLayout::Tree) {
-            // A unit of a tree is smaller: what f32 cannot place may fit a lattice.
-            true => match self.tree(watch.part(0.5, 1.0)) {
-                Err(BuildError::FieldUnit { .. }) if lattice.is_some() => None,
-                found => found?,
-            },
+        let lattice = match is_wanted(SdfLayout::Lattice) {
+            true => Some(self.draft(bytes as usize, watch.part(0.0, 0.2))?),
             false => None,
         };
-        let width = |field: &Option<Field>| field.as_ref().map(|field| field.report.mean_width);
-        let widths = [width(&lattice), width(&tree)];
-        let is_narrower = widths[1].is_some_and(|tree| widths[0].is_none_or(|other| tree < other));
-        let (field, other) = if is_narrower { (tree, widths[0]) } else { (lattice, widths[1]) };
-        Ok((field.ok_or_else(|| self.too_wide())?, other))
+        let of_lattice = lattice.as_ref().map(|draft| draft.mean_width(self.kind));
+        let (tree, of_tree) = match is_wanted(SdfLayout::Tree) {
+            // A unit of a tree is smaller: what f32 cannot place may fit a lattice.
+            true => match self.tree(of_lattice, watch.part(0.2, 0.7)) {
+                Err(BuildError::FieldUnit { .. }) if lattice.is_some() => (None, None),
+                found => found?,
+            },
+            false => (None, None),
+        };
+        let with_widths = |Field { body, report }: Field, kept: Option<f64>, other: Option<f64>| {
+            let drafted_widths = kept.zip(other).map(|(kept, other)| [kept, other]);
+            Field { body, report: SdfReport { drafted_widths, ..report } }
+        };
+        match (tree, lattice) {
+            (Some(tree), _) => Ok(with_widths(tree, of_tree, of_lattice)),
+            (None, None) => Err(self.too_wide()),
+            (None, Some(lattice)) => match self.proved(lattice, watch.part(0.7, 0.9)) {
+                // The tree has wider intervals, and may have room for them.
+                Err(BuildError::FieldTooWide { .. }) if of_tree.is_some() => {
+                    let (tree, _) = self.tree(None, watch.part(0.9, 1.0))?;
+                    tree.ok_or_else(|| self.too_wide())
+                }
+                found => Ok(with_widths(found?.0, of_lattice, of_tree)),
+            },
+        }
+    }
+
+    /// A tree, unless it has intervals of a mean width that is no less than another field's, before
+    /// the proof of either; `None` if it does not fit the numbers of a tree. Also that width.
+    fn tree(
+        &self,
+        other: Option<f64>,
+        watch: Watch<'_>,
+    ) -> Result<(Option<Field>, Option<f64>), BuildError> {
+        let most_bytes = self.options.bytes as usize;
+        let domain = Domain::of_tree(&self.surface, self.options.margin, most_bytes)?;
+        let per_unit = f64::from(domain.per_unit);
+        let other = other.map(|other| other * per_unit);
+        let found = self.with_maker(&domain, watch, |maker, watch| {
+            tree::build(maker, most_bytes, other, watch)
+        })?;
+        Ok(match found {
+            Beside::Tree { tree, drafted } => {
+                (Some(self.of_tree(&domain, tree)), Some(drafted / per_unit))
+            }
+            Beside::Wider(drafted) => (None, Some(drafted / per_unit)),
+            Beside::NoRoom => (None, None),
+        })
     }
 }

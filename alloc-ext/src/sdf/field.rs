@@ -53,8 +53,9 @@ pub struct SdfReport {
     /// of the diagonal from the surface. Of a signed field all samples inside count too, of a solid
     /// one none.
     pub mean_width: f64,
-    /// The same of the other layout, if it was built too.
-    pub other_width: Option<f64>,
+    /// The same before the proof, and that of the other layout, which was not proved, if both were
+    /// made.
+    pub drafted_widths: Option<[f64; 2]>,
     /// Largest width at those samples. Between them an interval that is cut at 0 may be wider.
     pub largest_width: f64,
     /// No interval in the field is wider: proved, with what f32 adds.
@@ -103,6 +104,22 @@ impl Draft<'_> {
         bytes(self.domain.cells)
     }
 
+    /// The mean width of intervals, of the mesh's unit.
+    pub fn mean_width(&self, kind: SdfKind) -> f64 {
+        let [mean, _] = self.widths(kind).found();
+        mean / f64::from(self.domain.per_unit)
+    }
+
+    fn widths(&self, kind: SdfKind) -> Widths {
+        let mut found = Widths::default();
+        for cell in 0..self.domain.cell_count() {
+            let [low, high] = self.books.errors(cell).map(f64::from);
+            let errors = Errors { low, high };
+            found.join(widths(&self.codes, &self.domain, &self.samples, cell, kind, errors));
+        }
+        found
+    }
+
     /// How much of the allowed width the widest cell takes; 0 if all is allowed.
     pub fn taken(&self) -> f64 {
         let Some(allowed) = self.allowed else { return 0.0 };
@@ -136,11 +153,6 @@ impl<'a> Work<'a> {
     /// How far the input may be from the mesh, units.
     fn off(&self, domain: &Domain) -> f64 {
         self.input.error_up() * f64::from(domain.per_unit) * (1.0 + 1e-6)
-    }
-
-    pub fn lattice(&self, watch: Watch<'_>) -> Result<Field, BuildError> {
-        let draft = self.draft(self.options.bytes as usize, watch.part(0.0, 0.4))?;
-        Ok(self.proved(draft, watch.part(0.4, 1.0))?.0)
     }
 
     /// A lattice of at most so many bytes.
@@ -189,11 +201,6 @@ impl<'a> Work<'a> {
         let needed: Vec<[u32; 2]> = proofs.iter().enumerate().map(proved).collect();
         books.hold(&needed);
         let body = section(domain, kind, codes, books).ok_or(self.too_wide())?;
-        let mut found = Widths::default();
-        for cell in 0..domain.cell_count() {
-            let [low, high] = books.errors(cell).map(f64::from);
-            found.join(widths(codes, domain, samples, cell, kind, Errors { low, high }));
-        }
         let has_doubt = |cell: &usize| {
             let is_in_doubt = |sample: &Sample| sample.side == Side::Undecided;
             proofs[*cell].is_undecided || samples.cells[*cell].iter().any(is_in_doubt)
@@ -205,7 +212,7 @@ impl<'a> Work<'a> {
             widest(kind, lower, width)
         };
         let largest = needed.iter().flatten().max().map_or(0.0, |&error| f64::from(error));
-        let [mean_width, largest_width] = found.found().map(|width| width * in_units);
+        let [mean_width, largest_width] = draft.widths(kind).found().map(|width| width * in_units);
         let report = SdfReport {
             kind,
             layout: SdfLayout::Lattice,
@@ -215,7 +222,7 @@ impl<'a> Work<'a> {
             steps: 1,
             bytes: body.len(),
             mean_width,
-            other_width: None,
+            drafted_widths: None,
             largest_width,
             widest: (0..proofs.len()).map(widest).fold(0.0, f64::max) * in_units,
             largest_error: largest * in_units,
@@ -225,15 +232,6 @@ impl<'a> Work<'a> {
             time: Duration::ZERO,
         };
         Ok((Field { body, report }, draft.taken()))
-    }
-
-    /// `None` if the field does not fit the numbers of a tree.
-    pub fn tree(&self, watch: Watch<'_>) -> Result<Option<Field>, BuildError> {
-        let most_bytes = self.options.bytes as usize;
-        let domain = Domain::of_tree(&self.surface, self.options.margin, most_bytes)?;
-        let tree =
-            self.with_maker(&domain, watch, |maker, watch| tree::build(maker, most_bytes, watch))?;
-        Ok(tree.map(|tree| self.of_tree(&domain, tree)))
     }
 
     /// Makes something of trees of a domain.
@@ -268,7 +266,7 @@ impl<'a> Work<'a> {
             steps: tree.steps,
             bytes: tree.section.len(),
             mean_width,
-            other_width: None,
+            drafted_widths: None,
             largest_width,
             widest: tree.widest * in_units,
             largest_error: f64::from(tree.largest) * in_units,

@@ -10,9 +10,11 @@
 //! Near the surface the triangles within a ball are kept too, see [`Region::ball`].
 //!
 //! *Groups.* Eight neighbouring triangles are a group, and what is said of a triangle holds for the
-//! box of a group too. Where a group is far from the nearest point it stands for its triangles. It
-//! is opened where it may have the nearest point, where it lies in the ball, and where its bound is
-//! the least of all.
+//! corners of a group too. The unit vector leads from their mean to the centre, so a group that the
+//! box sees from the front is as thin as its part of the surface. Where a group is farther than the
+//! nearest point it stands for its triangles. It is opened where it may have the nearest point,
+//! where it lies in the ball, and where its bound is the least of all. *Lost*: the boxes of groups;
+//! they are opened nearly always, and on the horse take 1.6 times the time (*historical*).
 
 use super::facet::Facet;
 use super::function::Linear;
@@ -51,11 +53,11 @@ const IS_GROUP: u32 = 1 << 31;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     facet: u32,
-    /// The point of it, or of the group's box, that is closest to the box's centre.
+    /// The point of it that is closest to the box's centre; no place of a group.
     pub point: DVec3,
-    /// Unit vector from there to the centre.
+    /// Unit vector from there to the box's centre; of a group from the mean of its corners.
     pub normal: DVec3,
-    /// Height of the centre over the triangle along it: no more than its distance.
+    /// Height of the box's centre over it along this vector: no more than its distance.
     pub distance: f64,
 }
 
@@ -171,13 +173,23 @@ impl Region {
     }
 }
 
+/// A group of triangles.
+#[derive(Debug)]
+struct Group {
+    /// The mean of its corners.
+    middle: DVec3,
+    /// Where its corners are.
+    corners: Range<usize>,
+}
+
 /// The triangles of a mesh in the field's frame.
 #[derive(Debug)]
 pub(super) struct Facets {
     all: Vec<Facet>,
     tree: StaticTree,
-    /// Boxes of groups of triangles.
-    groups: Vec<Bounds>,
+    groups: Vec<Group>,
+    /// The corners of each group's triangles.
+    corners: Vec<DVec3>,
     tree_of_groups: StaticTree,
 }
 
@@ -188,10 +200,31 @@ impl Facets {
         let order = spatial_order(&boxes);
         let all: Vec<Facet> = order.into_iter().map(|facet| all[facet as usize]).collect();
         let boxes: Vec<Bounds> = all.iter().map(of).collect();
-        let join = |boxes: &[Bounds]| boxes.iter().fold(Bounds::EMPTY, |all, &b| all.join(b));
-        let groups: Vec<Bounds> = boxes.chunks(GROUP).map(join).collect();
-        let tree_of_groups = StaticTree::new(&groups);
-        Self { tree: StaticTree::new(&boxes), all, groups, tree_of_groups }
+        let (mut groups, mut bounds, mut corners) = (Vec::new(), Vec::new(), Vec::new());
+        for members in all.chunks(GROUP) {
+            let mut of_group: Vec<DVec3> = members.iter().flat_map(|facet| facet.at).collect();
+            of_group.sort_unstable_by(|a, b| {
+                let order = |axis: usize| a[axis].total_cmp(&b[axis]);
+                order(0).then(order(1)).then(order(2))
+            });
+            of_group.dedup();
+            let middle = of_group.iter().sum::<DVec3>() / of_group.len() as f64;
+            bounds.push(Bounds::of(&of_group));
+            groups.push(Group { middle, corners: corners.len()..corners.len() + of_group.len() });
+            corners.extend(of_group);
+        }
+        let tree_of_groups = StaticTree::new(&bounds);
+        Self { tree: StaticTree::new(&boxes), all, groups, corners, tree_of_groups }
+    }
+
+    /// A unit vector from a group to a point, and the point's height over the group along it.
+    #[inline]
+    fn over_group(&self, group: u32, p: DVec3) -> (DVec3, f64) {
+        let Group { middle, corners, .. } = &self.groups[(group & !IS_GROUP) as usize];
+        let away = p - middle;
+        let normal = away / away.length().max(MARGIN);
+        let heights = self.corners[corners.clone()].iter().map(|&corner| normal.dot(p - corner));
+        (normal, heights.fold(f64::INFINITY, f64::min) - MARGIN)
     }
 
     pub fn facet(&self, facet: u32) -> &Facet {
@@ -226,18 +259,14 @@ impl Facets {
 
     /// Appends a group of a box, or its triangles, if they are to be kept.
     fn keep_group(&self, region: &mut Region, facet: u32, nears: &mut Vec<Near>) {
-        let bounds = &self.groups[(facet & !IS_GROUP) as usize];
-        let point = region.centre.clamp(bounds.low, bounds.high);
-        let away = region.centre - point;
-        let length = away.length();
-        if length <= region.distance + TIE + MARGIN {
+        let (normal, distance) = self.over_group(facet, region.centre);
+        if distance <= region.distance + TIE {
             self.open(region, facet, nears);
             return;
         }
-        let (normal, distance) = (away / length, length - MARGIN);
         let is_in_ball = region.ball().is_some_and(|radius| distance <= radius + TIE);
         if is_in_ball || region.reaches(normal, distance) {
-            nears.push(Near { facet, point, normal, distance });
+            nears.push(Near { facet, point: region.centre, normal, distance });
         }
     }
 
@@ -299,8 +328,7 @@ impl Facets {
             match near.facet() {
                 Some(facet) => least = look(facet).sqrt(),
                 None => {
-                    let bounds = &self.groups[(near.facet ^ IS_GROUP) as usize];
-                    if (p - p.clamp(bounds.low, bounds.high)).length() < least {
+                    if self.over_group(near.facet, p).1 < least {
                         self.members(near.facet).for_each(|facet| least = look(facet).sqrt());
                     }
                 }

@@ -21,7 +21,7 @@ use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
 
 const USAGE: &str = "\
-cargo xtask measure [--tree | --triboxes | --deform | --overlap
+cargo xtask measure [--tree | --triboxes | --deform | --overlap | --field [--queries COUNT]
                     | --tight [--firmware] | --paper TABLE [--firmware]] [MESH...]
 cargo xtask measure --margins TRIALS
           work, times, sizes and agreement (default: bracket.stl and torus.ply of fixtures/)
@@ -29,6 +29,7 @@ cargo xtask measure --margins TRIALS
           --triboxes  the stored ones
           --deform    the hull hierarchy under motions
           --overlap   whether the mesh meets itself, moved
+          --field     distance fields beside a plain grid of as many bytes, at so many points
           --tight     tight hulls, each proved, on a Cortex-M4F with --firmware
           --paper     a table of the papers; alone: the list of tables; 003.3 on a Cortex-M4F and
                       a Cortex-M0 with --firmware

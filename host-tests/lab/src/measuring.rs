@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use meshsweep_lab::measure::paper;
 use meshsweep_lab::measure::{
-    margins, measure, measure_deform, measure_overlap, measure_tight, measure_tree,
-    measure_triboxes,
+    field, margins, measure, measure_deform, measure_field, measure_overlap, measure_tight,
+    measure_tree, measure_triboxes,
 };
 use meshsweep_xtask::say;
 use meshsweep_xtask::steps::Steps;
@@ -21,6 +21,8 @@ pub struct Options {
     part: Option<Part>,
     /// Trials of each margin, of no mesh.
     margins: Option<usize>,
+    /// Points that each field is asked about.
+    queries: Option<usize>,
     /// Tight hulls or fans on a board.
     is_on_board: bool,
 }
@@ -33,13 +35,14 @@ enum Part {
     Triboxes,
     Tight,
     Deform,
+    Field,
     /// A table of [`paper::ALL`].
     Paper(usize),
 }
 
 impl Options {
-    /// `[--tree | --triboxes | --deform | --overlap | --tight [--firmware] |
-    /// --paper TABLE [--firmware] | --margins TRIALS] [MESH…]`; `None` if that is not what the words are.
+    /// `[--tree | --triboxes | --deform | --overlap | --field [--queries COUNT] | --tight
+    /// [--firmware] | --paper TABLE [--firmware] | --margins TRIALS] [MESH…]`; `None` if that is not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();
@@ -58,6 +61,11 @@ impl Options {
                     options.is_on_board = true;
                     continue;
                 }
+                "--field" => Part::Field,
+                "--queries" => {
+                    options.queries = Some(words.next()?.parse().ok().filter(|&of| of > 0)?);
+                    continue;
+                }
                 "--margins" => {
                     options.margins = Some(words.next()?.parse().ok()?);
                     continue;
@@ -73,7 +81,9 @@ impl Options {
             }
         }
         let of_boards = [Some(Part::Tight), fans().map(Part::Paper)];
-        (!options.is_on_board || of_boards.contains(&options.part)).then_some(options)
+        let fits = (!options.is_on_board || of_boards.contains(&options.part))
+            && (options.queries.is_none() || options.part == Some(Part::Field));
+        fits.then_some(options)
     }
 }
 
@@ -93,7 +103,7 @@ pub fn or_fixtures(meshes: Vec<PathBuf>) -> Vec<PathBuf> {
 /// Measures each mesh, the fixtures if none is named; tight hulls and fans on a board if the
 /// firmware is asked for.
 pub fn run(steps: &mut Steps, options: Options) {
-    let Options { meshes, part, margins, is_on_board } = options;
+    let Options { meshes, part, margins, queries, is_on_board } = options;
     if let Some(trials) = margins {
         steps.run("margins", || margins::table(trials).map(|table| say::text(table.text())));
         return;
@@ -112,6 +122,7 @@ pub fn run(steps: &mut Steps, options: Options) {
                     }
                     tables
                 }
+                Some(Part::Field) => measure_field(mesh, queries.unwrap_or(field::QUERIES))?,
                 Some(Part::Deform) => measure_deform(mesh)?,
                 Some(Part::Tight) => match &tools {
                     Some(tools) => vec![hulls_on_board::table(tools, mesh)?],
@@ -147,6 +158,8 @@ mod tests {
             &["--firmware"],
             &["--overlap", "--overlap"],
             &["--firmware", "--tree"],
+            &["--queries", "10"],
+            &["--field", "--queries", "0"],
             &["--firmware", "--paper", "003.1"],
             &["--paper"],
             &["--paper", "000.9"],

@@ -4,6 +4,7 @@ mod between;
 mod distance;
 mod double;
 pub mod exact;
+pub mod field;
 pub mod lp;
 pub mod moved;
 pub mod placed;

@@ -1,7 +1,6 @@
 //! Distance fields: what the builder proves and the interval of every point, whatever the bytes.
 
 mod bytes;
-mod decoded;
 mod kernel;
 mod options;
 mod proof;

@@ -1,12 +1,12 @@
 //! Options of a field, and meshes that it is refused for.
 
-use super::decoded::Field;
 use meshsweep::builder::{For, SdfKind, SdfLayout, Stage, Topic};
 use meshsweep::mesh::{Mesh, RawMesh};
 use meshsweep::progress::Watch;
 use meshsweep::sdf::{self, SdfOptions};
 use meshsweep::{BuildError, Builder, Built};
 use meshsweep_host_tests::generate::{Triangles, block, scaled};
+use meshsweep_host_tests::oracle::field::Field;
 use std::ops::ControlFlow;
 
 fn build(mesh: &Triangles, builder: Builder<'_>) -> Result<Built, BuildError> {

@@ -1,12 +1,12 @@
 //! The bytes of a field: as many as were asked for, the same on any number of threads.
 
-use super::decoded::Field;
 use meshsweep::Builder;
 use meshsweep::builder::{For, SdfKind, SdfLayout};
 use meshsweep::mesh::RawMesh;
 use meshsweep_core::Blob;
 use meshsweep_host_tests::generate::{Rng, Triangles, block, bracket, rough_sphere};
 use meshsweep_host_tests::oracle::distance_to_mesh;
+use meshsweep_host_tests::oracle::field::Field;
 
 #[test]
 fn a_field_takes_most_of_its_bytes_and_no_more() {
@@ -22,7 +22,7 @@ fn a_field_takes_most_of_its_bytes_and_no_more() {
         let field = Field::of(built.bytes());
         assert_eq!(report.cells, field.cells);
         assert_eq!(report.layout, layout);
-        assert_eq!(report.other_width, None);
+        assert_eq!(report.drafted_widths, None);
         assert!(report.bytes <= bytes as usize, "{} of {bytes}", report.bytes);
         assert!(4 * report.bytes + 800 > 3 * bytes as usize, "{} of {bytes}", report.bytes);
         assert!(built.blob().bvh().is_err(), "no tree was asked for");
@@ -56,7 +56,9 @@ fn widths_of_a_solid_bracket_are_narrow() {
     let percent = |width: f64| 100.0 * width / diagonal;
     // The tree is kept, for the lattice is wider.
     assert_eq!(report.layout, SdfLayout::Tree);
-    let [tree, lattice] = [report.mean_width, report.other_width.expect("both")].map(percent);
+    let [drafted, lattice] = report.drafted_widths.expect("both").map(percent);
+    let tree = percent(report.mean_width);
+    assert!(drafted < tree, "the proof widens");
     assert!(tree < 0.22 && lattice < 0.45, "{tree} % {lattice} %");
 }
 

@@ -1,6 +1,5 @@
 //! No distance lies outside of the proved interval.
 
-use super::decoded::Field;
 use meshsweep::builder::{For, SdfKind, SdfLayout};
 use meshsweep::mesh::RawMesh;
 use meshsweep::{BuildError, Builder};
@@ -8,6 +7,7 @@ use meshsweep_host_tests::generate::evil::glued_blocks;
 use meshsweep_host_tests::generate::{
     Rng, Triangles, block, bracket, icosphere, joined, plate, rough_sphere, scaled, transformed,
 };
+use meshsweep_host_tests::oracle::field::Field;
 use meshsweep_host_tests::oracle::{distance_to_mesh, winding_number};
 
 /// Points of each field: half anywhere in it, half next to the surface.

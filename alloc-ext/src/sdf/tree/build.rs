@@ -108,34 +108,63 @@ pub(in crate::sdf) struct Maker<'a> {
     pub allowed: Option<Allowed>,
 }
 
-/// What came of leaves.
-pub(super) enum Finished {
-    Tree(Tree),
+/// Why leaves make no tree.
+pub(super) enum Failure {
     /// These take more than 1 of the allowed width: so much.
     TooWide(Vec<(usize, f64)>),
     /// The field does not fit the numbers of a tree.
     NoRoom,
 }
 
-/// Builds a tree; `None` of a field that does not fit its numbers.
+/// Leaves with codes and widths that samples need, before their proof.
+struct Draft<'a> {
+    laid: Laid,
+    leaves: Vec<&'a Made>,
+    scale: Scale,
+    asked: Vec<Coded>,
+    weights: Vec<f64>,
+    book: [u32; WIDTHS],
+}
+
+/// What came of a tree beside another field.
+pub(in crate::sdf) enum Beside {
+    Tree {
+        tree: Tree,
+        /// The mean width before the proof, units.
+        drafted: f64,
+    },
+    /// Its mean width would be this, which is no less than the other's, units.
+    Wider(f64),
+    /// The field does not fit the numbers of a tree.
+    NoRoom,
+}
+
+/// Builds a tree, unless another field has intervals of a mean width that is no more, before the
+/// proof of either.
 pub(in crate::sdf) fn build(
     maker: &Maker<'_>,
     most_bytes: usize,
+    other: Option<f64>,
     watch: Watch<'_>,
-) -> Result<Option<Tree>, BuildError> {
+) -> Result<Beside, BuildError> {
     let Maker { truth, domain, .. } = *maker;
     let most_entries = most_entries(most_bytes);
     if domain.cell_count() > most_entries {
-        return Ok(None);
+        return Ok(Beside::NoRoom);
     }
     let choices = search(truth, domain, most_entries, watch.part(0.0, 0.5))?;
-    let Some(laid) = entries(domain, &choices) else { return Ok(None) };
+    let Some(laid) = entries(domain, &choices) else { return Ok(Beside::NoRoom) };
     let made =
         watch.part(0.5, 0.65).map(laid.leaves.len(), |leaf| maker.made(laid.leaves[leaf].1))?;
-    match maker.finish(laid, &made.iter().collect::<Vec<_>>(), watch.part(0.65, 1.0))? {
-        Finished::Tree(tree) => Ok(Some(tree)),
-        _ => Ok(None),
+    let Ok(draft) = maker.draft(laid, made.iter().collect()) else { return Ok(Beside::NoRoom) };
+    let [drafted, _] = maker.widths(&draft, draft.scale, &draft.asked, &draft.book).found();
+    if other.is_some_and(|other| drafted >= other) {
+        return Ok(Beside::Wider(drafted));
     }
+    Ok(match maker.proved(draft, watch.part(0.65, 1.0))? {
+        Ok(tree) => Beside::Tree { tree, drafted },
+        Err(_) => Beside::NoRoom,
+    })
 }
 
 /// Entries of a tree of so many bytes.
@@ -190,51 +219,105 @@ impl Maker<'_> {
     /// Codes, books and proofs of leaves.
     pub(super) fn finish(
         &self,
-        Laid { mut entries, leaves: places, steps }: Laid,
-        leaves: &[&Made],
+        laid: Laid,
+        leaves: Vec<&Made>,
         watch: Watch<'_>,
-    ) -> Result<Finished, BuildError> {
-        let Self { truth, domain, off, .. } = *self;
-        let kind = truth.kind;
-        let (near, slack) = (NEAR * domain.diagonal, self.slack());
+    ) -> Result<Result<Tree, Failure>, BuildError> {
+        match self.draft(laid, leaves) {
+            Ok(draft) => self.proved(draft, watch),
+            Err(failure) => Ok(Err(failure)),
+        }
+    }
+
+    /// The width that holds an error above of the function with the value 0 at the centre.
+    fn width(&self, leaf: &Made, scale: Scale, code: i64, high: f64) -> u32 {
+        let [below, _] = leaf.losses(self.off);
+        (high - scale.value(code) + below).ceil().clamp(0.0, 1e9) as u32
+    }
+
+    /// Codes and a book as the samples of leaves need them.
+    fn draft<'a>(&self, laid: Laid, leaves: Vec<&'a Made>) -> Result<Draft<'a>, Failure> {
+        let (off, slack, near) = (self.off, self.slack(), NEAR * self.domain.diagonal);
         let offsets: Vec<f64> = leaves.iter().map(|leaf| leaf.offset(off, slack)).collect();
-        let Some(scale) = Scale::of(offsets.iter().copied()) else { return Ok(Finished::NoRoom) };
-        // The width that holds an error above of the function with the value 0 at the centre.
-        let width = |leaf: &Made, code: i64, high: f64| {
-            let [below, _] = leaf.losses(off);
-            (high - scale.value(code) + below).ceil().clamp(0.0, 1e9) as u32
-        };
+        let scale = Scale::of(offsets.iter().copied()).ok_or(Failure::NoRoom)?;
         let asked: Vec<Coded> = (leaves.iter().zip(&offsets))
             .map(|(leaf, &offset)| {
                 let code = scale.code(offset);
-                Coded { code, width: width(leaf, code, leaf.fitted.errors.high + slack) }
+                let high = leaf.fitted.errors.high + slack;
+                Coded { code, width: self.width(leaf, scale, code, high) }
             })
             .collect();
         let mut batch = Batch::default();
-        let weights: Vec<f64> =
-            leaves.iter().map(|leaf| leaf.weight(&mut batch, kind, near)).collect();
-        // Those that are wider than allowed with the entries of a book.
-        let too_wide = |scale: Scale, coded: &[Coded], book: &[u32; WIDTHS]| -> Vec<(usize, f64)> {
-            let taken = |(leaf, &Coded { code, width }): (usize, &Coded)| {
-                let (of, width) = (leaves[leaf], book[books::entry(book, width)]);
-                let value = scale.value(code);
-                (leaf, self.taken(of.of.half(), of.fitted.shape, value, f64::from(width)))
-            };
-            coded.iter().enumerate().map(taken).filter(|&(_, taken)| taken > 1.0).collect()
-        };
+        let mut weight = |leaf: &&Made| leaf.weight(&mut batch, self.truth.kind, near);
+        let weights: Vec<f64> = leaves.iter().map(&mut weight).collect();
         let widths: Vec<u32> = asked.iter().map(|coded| coded.width).collect();
-        let first: [u32; WIDTHS] = book(&widths, &weights);
-        let wide = too_wide(scale, &asked, &first);
-        if !wide.is_empty() {
-            return Ok(Finished::TooWide(wide));
+        let book: [u32; WIDTHS] = book(&widths, &weights);
+        self.check_widths(&leaves, scale, &asked, &book)?;
+        Ok(Draft { laid, leaves, scale, asked, weights, book })
+    }
+
+    /// Refuses leaves that are wider than allowed with the entries of a book.
+    fn check_widths(
+        &self,
+        leaves: &[&Made],
+        scale: Scale,
+        coded: &[Coded],
+        book: &[u32; WIDTHS],
+    ) -> Result<(), Failure> {
+        let taken = |(leaf, &Coded { code, width }): (usize, &Coded)| {
+            let (of, width) = (leaves[leaf], book[books::entry(book, width)]);
+            let value = scale.value(code);
+            (leaf, self.taken(of.of.half(), of.fitted.shape, value, f64::from(width)))
+        };
+        let wide: Vec<(usize, f64)> =
+            coded.iter().enumerate().map(taken).filter(|&(_, taken)| taken > 1.0).collect();
+        if wide.is_empty() { Ok(()) } else { Err(Failure::TooWide(wide)) }
+    }
+
+    /// The widths of leaves at their samples, with the entries of a book.
+    fn widths(
+        &self,
+        draft: &Draft<'_>,
+        scale: Scale,
+        coded: &[Coded],
+        book: &[u32; WIDTHS],
+    ) -> Widths {
+        let (kind, near) = (self.truth.kind, NEAR * self.domain.diagonal);
+        let (mut found, mut batch, mut fitter) =
+            (Widths::default(), Batch::default(), Fitter::default());
+        for (leaf, &Coded { code, width }) in draft.leaves.iter().zip(coded) {
+            let (shape, half) = (leaf.fitted.shape, leaf.of.half());
+            let weight = leaf.volume() / leaf.samples.len() as f64;
+            batch.fill(&leaf.samples, leaf.steps, kind, near);
+            let (value, wide) = (scale.value(code), f64::from(book[books::entry(book, width)]));
+            for (number, (more, &sample)) in
+                fitter.values(&batch, half, shape).iter().zip(&leaf.samples).enumerate()
+            {
+                if self.domain.is_asked(leaf.place(number)) {
+                    let lower = f64::from(*more) + value;
+                    found.add(sample, kind, near, [lower, lower + wide], weight);
+                }
+            }
         }
+        found
+    }
+
+    /// The tree of a draft: its leaves are proved, and widened where the proof needs it.
+    fn proved(
+        &self,
+        draft: Draft<'_>,
+        watch: Watch<'_>,
+    ) -> Result<Result<Tree, Failure>, BuildError> {
+        let Self { truth, domain, off, .. } = *self;
+        let kind = truth.kind;
+        let Draft { leaves, scale, asked, weights, book: first, .. } = &draft;
         let held = |leaf: &Made, code: i64, width: u32| {
             let [below, above] = leaf.losses(off);
             (scale.value(code), Errors { low: -above, high: f64::from(width) - below })
         };
         let proofs = watch.map(leaves.len(), |number| {
             let (leaf, Coded { code, width }) = (leaves[number], asked[number]);
-            let width = first[books::entry(&first, width)];
+            let width = first[books::entry(first, width)];
             let (offset, wanted) = held(leaf, code, width);
             let half = leaf.of.half();
             let function = Leaf { half, shape: leaf.fitted.shape, offset };
@@ -242,51 +325,40 @@ impl Maker<'_> {
             let floor = (FLOOR * domain.diagonal).max(FLOOR_OF_WIDTH * f64::from(width));
             Prover::cell(truth, function, boxed, wanted, floor)
         })?;
-        let mut needed: Vec<Coded> = (leaves.iter().zip(&asked).zip(&proofs))
+        let mut needed: Vec<Coded> = (leaves.iter().zip(asked).zip(&proofs))
             .map(|((leaf, &coded), proof)| {
                 if !proof.is_widened {
-                    return Coded { width: first[books::entry(&first, coded.width)], ..coded };
+                    return Coded { width: first[books::entry(first, coded.width)], ..coded };
                 }
                 let (offset, wanted) = held(leaf, coded.code, 0);
                 let down = ((proof.errors.low - wanted.low) / scale.step()).ceil();
                 let code = coded.code - down as i64;
-                Coded { code, width: width(leaf, code, offset + proof.errors.high) }
+                Coded { code, width: self.width(leaf, *scale, code, offset + proof.errors.high) }
             })
             .collect();
-        let Some(scale) = scale.holding(&mut needed) else { return Ok(Finished::NoRoom) };
+        let Some(scale) = scale.holding(&mut needed) else { return Ok(Err(Failure::NoRoom)) };
         // The entries that were proved, and the widths that had to grow, have one book more.
         let widths: Vec<u32> = needed.iter().map(|coded| coded.width).collect();
-        let book: [u32; WIDTHS] = book(&widths, &weights);
-        let wide = too_wide(scale, &needed, &book);
-        if !wide.is_empty() {
-            return Ok(Finished::TooWide(wide));
+        let book: [u32; WIDTHS] = book(&widths, weights);
+        if let Err(failure) = self.check_widths(leaves, scale, &needed, &book) {
+            return Ok(Err(failure));
         }
         if book[WIDTHS - 1] > u32::from(u16::MAX) {
-            return Ok(Finished::NoRoom);
+            return Ok(Err(Failure::NoRoom));
         }
-        let (mut found, mut largest, mut most) = (Widths::default(), 0, 0f64);
-        let mut fitter = Fitter::default();
+        let found = self.widths(&draft, scale, &needed, &book);
+        let Draft { laid: Laid { mut entries, leaves: places, steps }, leaves, .. } = draft;
+        let (mut largest, mut most) = (0, 0f64);
         for ((leaf, &Coded { code, width }), &(number, _)) in
             leaves.iter().zip(&needed).zip(&places)
         {
             let place = books::entry(&book, width);
             let (shape, half) = (leaf.fitted.shape, leaf.of.half());
-            let Some(bytes) = entry(shape, code, place) else { return Ok(Finished::NoRoom) };
+            let Some(bytes) = entry(shape, code, place) else { return Ok(Err(Failure::NoRoom)) };
             entries[number] = bytes;
-            let weight = leaf.volume() / leaf.samples.len() as f64;
-            batch.fill(&leaf.samples, leaf.steps, kind, near);
-            let (value, wide) = (scale.value(code), f64::from(book[place]));
-            for (number, (more, &sample)) in
-                fitter.values(&batch, half, shape).iter().zip(&leaf.samples).enumerate()
-            {
-                if !domain.is_asked(leaf.place(number)) {
-                    continue;
-                }
-                let lower = f64::from(*more) + value;
-                found.add(sample, kind, near, [lower, lower + wide], weight);
-            }
             largest = largest.max(book[place]);
-            most = most.max(widest(kind, lowest(half, shape, value), wide));
+            let lower = lowest(half, shape, scale.value(code));
+            most = most.max(widest(kind, lower, f64::from(book[place])));
         }
         let book = book.map(|width| width as u16);
         let [low, high] = [0, BOOK].map(|from| std::array::from_fn(|k| book[from + k]));
@@ -307,7 +379,7 @@ impl Maker<'_> {
         section.extend(entries.into_flattened());
         let is_undecided =
             |(leaf, proof): &(&&Made, &Proof)| proof.is_undecided || leaf.is_undecided();
-        Ok(Finished::Tree(Tree {
+        Ok(Ok(Tree {
             section,
             widths: found,
             steps: u32::from(steps),

@@ -5,7 +5,7 @@
 //! leaves are fitted by more samples, coded and proved. A box whose leaf comes out too wide counts
 //! as too wide from then on, and the fewest entries are found anew.
 
-use super::build::{Finished, Made, Maker, Tree, most_entries};
+use super::build::{Failure, Made, Maker, Tree, most_entries};
 use super::codes::Scale;
 use super::fit::Fitter;
 use super::grid::{Batch, Grid, unranked};
@@ -129,10 +129,10 @@ pub(in crate::sdf) fn build(
         let found = watch.part(0.0, 0.3).map(new.len(), |leaf| maker.made(new[leaf]))?;
         made.extend(new.into_iter().zip(found));
         let leaves: Vec<&Made> = of_leaves.iter().map(|of| &made[of]).collect();
-        match maker.finish(laid, &leaves, watch.part(0.3, 1.0))? {
-            Finished::Tree(tree) => return Ok(Some(Narrow::Tree(tree))),
-            Finished::NoRoom => return Ok(None),
-            Finished::TooWide(wide) => {
+        match maker.finish(laid, leaves, watch.part(0.3, 1.0))? {
+            Ok(tree) => return Ok(Some(Narrow::Tree(tree))),
+            Err(Failure::NoRoom) => return Ok(None),
+            Err(Failure::TooWide(wide)) => {
                 for (leaf, taken) in wide {
                     let of = of_leaves[leaf];
                     costs[root(&of)][of.number()] = f32::INFINITY;

@@ -12,6 +12,7 @@
 //!                         ├─ robot    (an arm's own guard) ─┤
 //!                         ├─ deform   (hulls that deform) ─┤
 //!                         ├─ triboxes (their hierarchies) ──┤
+//!                         ├─ field    (distance fields) ────┤
 //!                         └─ tight    (tight hulls) ────────┘
 //! ```
 //! Times are the processor's, of all threads, the fastest of three runs; on a busy machine even so
@@ -20,6 +21,7 @@
 pub(crate) mod brute;
 mod closest;
 mod deform;
+pub mod field;
 mod kept;
 pub mod margins;
 mod moving_pair;
@@ -90,6 +92,17 @@ pub fn measure_triboxes(file: &Path) -> Result<Vec<Table>, String> {
     let subject = Subject::load_any(file)?;
     let mut tables = vec![subject_table(&subject)];
     tables.extend(triboxes::tables(&subject)?);
+    Ok(tables)
+}
+
+/// Measures distance fields of one mesh file, which need not be closed, at so many points.
+///
+/// # Errors
+/// The file is no mesh, or an answer is wrong.
+pub fn measure_field(file: &Path, queries: usize) -> Result<Vec<Table>, String> {
+    let subject = Subject::load_any(file)?;
+    let mut tables = vec![subject_table(&subject)];
+    tables.extend(field::tables(&subject, queries)?);
     Ok(tables)
 }
 

@@ -3,10 +3,15 @@
 use meshsweep_core::{Blob, SectionKind};
 
 /// A field.
+#[derive(Clone, Debug)]
 pub struct Field {
+    /// The least corner, input units.
     pub origin: [f64; 3],
+    /// Units in one of the input.
     pub per_unit: f64,
+    /// What distances mean: 0 signed, 1 solid, 2 surface.
     pub kind: u8,
+    /// Cells along each axis: of a tree its root cells.
     pub cells: [usize; 3],
     base: f64,
     step: f64,
@@ -27,6 +32,11 @@ fn u16_at(bytes: &[u8], at: usize) -> f64 {
 }
 
 impl Field {
+    /// The field of a blob.
+    ///
+    /// # Panics
+    /// The blob has no field.
+    #[must_use]
     pub fn of(blob: &[u8]) -> Self {
         let opened = Blob::open(blob).expect("opens");
         let section = opened.sections().find(|of| of.kind == SectionKind::Sdf).expect("a field");
@@ -54,7 +64,9 @@ impl Field {
         }
     }
 
-    pub fn is_tree(&self) -> bool {
+    /// Whether it is a tree.
+    #[must_use]
+    pub const fn is_tree(&self) -> bool {
         !self.entries.is_empty()
     }
 
@@ -105,6 +117,7 @@ impl Field {
     }
 
     /// The field's box in input units.
+    #[must_use]
     pub fn bounds(&self) -> [[f64; 3]; 2] {
         let end = |part: f64| {
             [0, 1, 2].map(|k| {
@@ -116,11 +129,26 @@ impl Field {
 
     /// The proved interval of a point in the field, units, before it is cut at 0: without what the
     /// errors above hold for the value that a query computes.
+    #[must_use]
     pub fn interval(&self, p: [f32; 3]) -> Option<[f64; 2]> {
         if self.is_tree() {
             let place = |k: usize| (f64::from(p[k]) - self.origin[k]) * self.per_unit - 0.5;
             return self.of_tree([place(0), place(1), place(2)]);
         }
+        let (value, errors) = self.of_lattice(p)?;
+        let loss = 1.0 + 3.0 * self.step / 2048.0;
+        Some([value - self.low[errors & 15], value + self.high[errors >> 4] - loss])
+    }
+
+    /// The function of a lattice at a point in it, input units: that of a plain grid with the same
+    /// corners.
+    #[must_use]
+    pub fn value(&self, p: [f32; 3]) -> Option<f64> {
+        self.of_lattice(p).map(|(value, _)| value / self.per_unit)
+    }
+
+    /// The function of a lattice, units, and the cell's byte of errors.
+    fn of_lattice(&self, p: [f32; 3]) -> Option<(f64, usize)> {
         let [nx, ny, nz] = self.cells;
         let mut cell = [0; 3];
         let mut at = [0.0; 3];
@@ -144,7 +172,6 @@ impl Field {
         assert!(z < nz);
         let value = self.base + self.step * sum;
         let errors = usize::from(self.errors[x + nx * (y + ny * z)]);
-        let loss = 1.0 + 3.0 * self.step / 2048.0;
-        Some([value - self.low[errors & 15], value + self.high[errors >> 4] - loss])
+        Some((value, errors))
     }
 }
