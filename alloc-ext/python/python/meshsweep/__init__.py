@@ -13,9 +13,10 @@ ends them. The bits of the answers are those that firmware computes.
 
 **Rounding.** Questions are asked in single precision. Points in double precision are rounded first,
 and intervals of distances, sides and verdicts about one distance are widened by that, so that they
-hold for the points as given. The side by a winding number may change by any motion, so
-`signed_distance` does not use it for points that were moved. Segments, rays and poses are rounded,
-and the answer is about the rounded one: give float32 to see none.
+hold for the points as given. So are answers about solids, by the rounding of their corners. The
+side by a winding number may change by any motion, so `signed_distance` does not use it for points
+that were moved. Segments, rays and poses are rounded, and the answer is about the rounded one: give
+float32 to see none.
 
 **Processes.** A model can be pickled. The child of a fork has threads of its own.
 """

@@ -110,7 +110,7 @@ class Points(Opened):
         with fewer triangles has fewer.
         """
         near, moved = self._points(points)
-        if count < 1:
+        if not whole(count, "count"):
             raise QueryError("count: at least 1 is wanted")
         dtype = _records.NEAREST_ON_CURVE if self._facts["is_curve"] else _records.NEAREST
         found = ask(self._model.nearest, dtype, near, count)

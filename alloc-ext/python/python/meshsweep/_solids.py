@@ -18,7 +18,7 @@ from ._rounding import asked, rounded, widened
 def _placed(corners: ArrayLike, what: str) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Rows of corners in single precision, and bounds of how far a corner of each was moved."""
     near, moved = rounded(solids(corners, what))
-    flat = near.reshape(len(near), -1)
+    flat = near.reshape(len(near), 3 * near.shape[1])
     return flat, np.zeros(len(near), np.float32) if moved is None else moved.max(axis=1)
 
 
