@@ -5,7 +5,7 @@ use crate::mesh::{Given, Taken};
 use crate::model::Model;
 use crate::pool::on_all_cores_until_stopped;
 use meshsweep::Builder;
-use meshsweep::builder::{Built, For, SdfKind, Stage};
+use meshsweep::builder::{Built, For, SdfKind, SdfLayout, Stage};
 use meshsweep::mesh::Unit;
 use meshsweep::surface::VertexBits;
 use meshsweep::tribox::Measure;
@@ -26,13 +26,18 @@ pub struct Options {
     triboxes: Option<u32>,
     tribox_error: Option<f64>,
     orient: Option<String>,
+    extrema: bool,
     tight_faces: Option<Vec<u32>>,
     slack: Option<f64>,
     void_percent: Option<f64>,
     margin: Option<f64>,
     effort: Option<f64>,
+    tight_for: Vec<String>,
     sdf_bytes: Option<u32>,
+    sdf_error: Option<f64>,
+    sdf_rel: Option<f64>,
     sdf_kind: Option<String>,
+    sdf_layout: Option<String>,
     sdf_margin: Option<f64>,
     frames: Vec<PathBuf>,
     closed: bool,
@@ -76,15 +81,24 @@ impl Options {
             builder = builder.unit(unit);
         }
         if let Some(word) = &self.orient {
-            builder = builder.orient(named(
-                &[Measure::Volume, Measure::Area],
-                Measure::name,
-                "orient",
-                word,
-            )?);
+            let measures = [Measure::Volume, Measure::Area];
+            builder = builder.orient(named(&measures, Measure::name, "orient", word)?);
         }
         if let Some(word) = &self.sdf_kind {
             builder = builder.sdf_kind(named(&SdfKind::ALL, SdfKind::name, "sdf_kind", word)?);
+        }
+        if let Some(word) = &self.sdf_layout {
+            let layouts = &SdfLayout::ALL;
+            builder = builder.sdf_layout(named(layouts, SdfLayout::name, "sdf_layout", word)?);
+        }
+        if !self.tight_for.is_empty() {
+            let questions = [For::Closest, For::Segment];
+            for word in &self.tight_for {
+                named(&questions, For::name, "tight_for", word)?;
+            }
+            let [closest, segment] =
+                questions.map(|of| self.tight_for.iter().any(|word| word == of.name()));
+            builder = builder.tight_for(closest, segment);
         }
         if let Some(faces) = &self.tight_faces {
             builder = builder.tight_faces(faces);
@@ -100,7 +114,10 @@ impl Options {
             .void_percent(self.void_percent)
             .margin(self.margin)
             .effort(self.effort)
+            .extrema(self.extrema)
             .sdf_bytes(self.sdf_bytes)
+            .sdf_error(self.sdf_error)
+            .sdf_relative(self.sdf_rel)
             .sdf_margin(self.sdf_margin))
     }
 

@@ -2,15 +2,17 @@
 //! out; `python/meshsweep` gives them names.
 
 mod build;
-mod curve;
 mod error;
+mod hulls;
 mod mesh;
 mod model;
-mod moves;
 mod pairs;
+mod points;
 mod pool;
 mod record;
 mod rows;
+mod segments;
+mod solids;
 mod trade;
 mod triboxes;
 mod verify;

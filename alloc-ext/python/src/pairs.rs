@@ -1,9 +1,9 @@
-//! Questions about two models, the second at many poses.
+//! Questions about two models, the second at many poses or on its way between two.
 
 use crate::model::{Model, budget};
-use crate::record::ended;
-use crate::rows::{Records, Rows, ask};
-use meshsweep_core::{Bvh, Pose, ScratchEntry};
+use crate::rows::{Asked, Found, Lists, Records};
+use meshsweep::bvh::FastBvh;
+use meshsweep_core::{AllOverlaps, Budget, Bvh, Motion, Pose, TrianglePair};
 use pyo3::prelude::*;
 
 /// A pose of a row: three rows of a matrix, each with its part of the translation.
@@ -13,58 +13,93 @@ pub fn pose(row: &[f32]) -> Pose {
     Pose::rigid(rotation, [3, 7, 11].map(entry))
 }
 
+/// With these entries no question about two models ends for lack of memory.
+fn entries(pair: &[FastBvh<'_>; 2]) -> usize {
+    let most = pair.iter().map(|tree| tree.scratch_entries()).fold(0, usize::max);
+    most.max(Bvh::DISTANCE_ENTRIES).max(Bvh::OVERLAP_ENTRIES)
+}
+
+impl Model {
+    fn pair<'a>(&'a self, other: &'a Model, word: &'static str) -> PyResult<[FastBvh<'a>; 2]> {
+        Ok([self.tree(word)?, other.tree(word)?])
+    }
+}
+
 #[pymethods]
 impl Model {
     /// The distance of both surfaces at each pose of the second.
     fn distance_to<'py>(
         &self,
-        py: Python<'py>,
+        asked: Asked<'py>,
         other: &Model,
-        poses: Rows<'py>,
         rel: f32,
         abs: f32,
-        size: usize,
     ) -> PyResult<Records<'py>> {
-        let trees = [self.tree("segment")?, other.tree("segment")?];
-        let budget = budget(rel, abs, None);
-        ask::<12, _>(py, &poses, size, || {
-            let mut scratch = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-            move |row, mut put| {
-                let [first, second] = &trees;
-                let found = first.distance_to(second, pose(&row), budget, &mut scratch)?;
-                put.interval(found.distance).floats(found.points.as_flattened());
-                let [a, b] = found.triangles;
-                put.number(Some(a)).number(Some(b)).ended(found.ended);
-                put.count(found.work.total());
-                Ok(())
-            }
+        let (pair, budget) = (self.pair(other, "segment")?, budget((rel, abs, None)));
+        asked.each(entries(&pair), |row: [f32; 12], scratch| {
+            pair[0].distance_to(&pair[1], pose(&row), budget, scratch)
         })
     }
 
     /// Whether the surfaces are within a distance, or meet if there is none.
     fn meets<'py>(
         &self,
-        py: Python<'py>,
+        asked: Asked<'py>,
         other: &Model,
-        poses: Rows<'py>,
         distance: Option<f32>,
-        size: usize,
     ) -> PyResult<Records<'py>> {
-        let trees = [self.tree("segment")?, other.tree("segment")?];
-        let budget = budget(0.0, 0.0, None);
-        ask::<12, _>(py, &poses, size, || {
-            let mut scratch = [ScratchEntry::EMPTY; Bvh::DISTANCE_ENTRIES];
-            move |row, mut put| {
-                let ([first, second], pose) = (&trees, pose(&row));
-                let found = match distance {
-                    Some(d) => first.within_of(second, pose, d, budget, &mut scratch),
-                    None => first.overlap(second, pose, budget, &mut scratch),
-                }?;
-                let [a, b] = found.witness.map_or([None; 2], |pair| pair.map(Some));
-                put.verdict(found.verdict).number(a).number(b).ended(ended(found.verdict));
-                put.count(found.work.total());
-                Ok(())
+        let pair = self.pair(other, "segment")?;
+        asked.each(entries(&pair), |row: [f32; 12], scratch| {
+            let ([first, second], pose) = (&pair, pose(&row));
+            match distance {
+                Some(d) => first.within_of(second, pose, d, Budget::EXACT, scratch),
+                None => first.overlap(second, pose, Budget::EXACT, scratch),
             }
+        })
+    }
+
+    /// The pairs of triangles that meet or may meet.
+    fn all_overlaps<'py>(&self, asked: Asked<'py>, other: &Model) -> PyResult<Lists<'py>> {
+        let pair = self.pair(other, "segment")?;
+        asked.lists(entries(&pair), TrianglePair::EMPTY, |row: [f32; 12], room, scratch| {
+            let AllOverlaps { stored, dropped, .. } =
+                pair[0].all_overlaps(&pair[1], pose(&row), room, Budget::EXACT, scratch)?;
+            Ok(Found { stored, dropped, is_complete: true })
+        })
+    }
+
+    /// How both solids lie to each other, and how deep they are in each other.
+    fn penetration<'py>(
+        &self,
+        asked: Asked<'py>,
+        other: &Model,
+        limits: (f32, f32, Option<u32>),
+    ) -> PyResult<Records<'py>> {
+        for word in ["closest", "segment"] {
+            self.pair(other, word)?;
+        }
+        let (pair, budget) = (self.pair(other, "winding")?, budget(limits));
+        asked.each(entries(&pair), |row: [f32; 12], scratch| {
+            pair[0].penetration(&pair[1], pose(&row), budget, scratch)
+        })
+    }
+
+    /// How far each move of the second keeps the distance. Rows have two poses.
+    fn first_contact_of<'py>(
+        &self,
+        asked: Asked<'py>,
+        other: &Model,
+        is_straight: bool,
+        keep: f32,
+    ) -> PyResult<Records<'py>> {
+        let pair = self.pair(other, "segment")?;
+        asked.each(entries(&pair), |row: [f32; 24], scratch| {
+            let (from, to) = (pose(&row[..12]), pose(&row[12..]));
+            let motion = match is_straight {
+                true => Motion::straight(from, to),
+                false => Motion::screw(from, to)?,
+            };
+            pair[0].first_contact_of(&pair[1], &motion, keep, Budget::EXACT, scratch)
         })
     }
 }

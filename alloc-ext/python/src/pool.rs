@@ -6,10 +6,11 @@
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::process;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 /// The process that used rayon's global pool first.
@@ -18,7 +19,7 @@ static FIRST: OnceLock<u32> = OnceLock::new();
 /// The pools of its children, and of theirs.
 static OF_CHILDREN: OnceLock<Box<Child>> = OnceLock::new();
 
-/// Between two looks for Ctrl-C, while threads of a child's pool build.
+/// Between two looks for Ctrl-C, while other threads work.
 const LOOK: Duration = Duration::from_millis(50);
 
 struct Child {
@@ -63,8 +64,25 @@ pub fn on_all_cores<T: Send>(work: impl FnOnce() -> T + Send) -> PyResult<T> {
     })
 }
 
-/// The same with looks for Ctrl-C. The work looks itself where it runs on the caller's thread. Else
-/// it gets the word to end by `stop`.
+/// Waits for the work's result, and looks for Ctrl-C. Only the thread of the interpreter's signals
+/// sees one.
+///
+/// # Errors
+/// Ctrl-C; the work ended without a result.
+fn wait<T>(result: &Receiver<T>) -> PyResult<T> {
+    loop {
+        match result.recv_timeout(LOOK) {
+            Ok(result) => return Ok(result),
+            Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("the work ended early"));
+            }
+        }
+    }
+}
+
+/// Does work that takes all cores with looks for Ctrl-C. The work looks itself where it runs on the
+/// caller's thread. Else it gets the word to end by `stop`, and its end is waited for.
 ///
 /// # Errors
 /// Ctrl-C, where the work did not look; no threads can be had.
@@ -73,23 +91,31 @@ pub fn on_all_cores_until_stopped<T: Send>(
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
     let Some(pool) = of_child()? else { return Ok(work()) };
-    let (mut found, mut stopped) = (None, Ok(()));
     pool.in_place_scope(|scope| {
-        let (done, is_done) = channel::<()>();
-        let found = &mut found;
-        scope.spawn(move |_| {
-            *found = Some(work());
-            drop(done);
-        });
-        while is_done.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-            // Only the thread of the interpreter's signals sees one.
-            if let Err(error) = Python::attach(|py| py.check_signals()) {
-                stop.store(true, Ordering::Relaxed);
-                stopped = Err(error);
-            }
-        }
+        let (done, result) = channel();
+        // The scope passes on a panic of the work.
+        scope.spawn(move |_| drop(done.send(work())));
+        wait(&result).inspect_err(|_| stop.store(true, Ordering::Relaxed))
+    })
+}
+
+/// Does work that cannot look for Ctrl-C itself, on threads of its own. After Ctrl-C they are left
+/// alone: the work gets the word to end by its flag, and ends when it looks there.
+///
+/// # Errors
+/// Ctrl-C; no threads can be had.
+pub fn aside<T: Send + 'static>(
+    work: impl FnOnce(&AtomicBool) -> PyResult<T> + Send + 'static,
+) -> PyResult<T> {
+    let pool = ThreadPoolBuilder::new().build();
+    let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    let (stop, (done, result)) = (Arc::new(AtomicBool::new(false)), channel());
+    let to_stop = Arc::clone(&stop);
+    pool.spawn(move || {
+        let result = catch_unwind(AssertUnwindSafe(|| work(&to_stop)));
+        // Nobody waits after Ctrl-C.
+        drop(done.send(result));
     });
-    // The scope passes on a panic of the work, so that it is there.
-    let missing = || PyRuntimeError::new_err("the build ended early");
-    stopped.and_then(|()| found.ok_or_else(missing))
+    let result = wait(&result).inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
+    result.unwrap_or_else(|panic| resume_unwind(panic))
 }

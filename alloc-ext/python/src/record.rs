@@ -1,8 +1,19 @@
 //! Answers as packed records, in this machine's byte order. The dtypes of
 //! `python/meshsweep/_records.py` have the same fields in the same order.
 
-use meshsweep::distances::{Closest, Element};
-use meshsweep_core::{CurveSegment, Ended, FirstHit, Interval, Side, Undecided, Verdict};
+use meshsweep::distances::{AnyWithin, Closest, Element};
+use meshsweep_core::{
+    CurveNeighbor, CurveSegment, CurveSignedDistance, Decided, DistanceBounds, Ended,
+    FieldDistance, FirstHit, Interval, Neighbor, NodePair, PairContact, PairDistance, Penetration,
+    Relation, Separation, Side, SignedBounds, SignedDistance, SolidDistance, TriangleHit,
+    TrianglePair, TriboxBound, Undecided, Verdict, WindingNumber, Work,
+};
+
+/// An answer that has a record.
+pub trait Answer {
+    /// Writes the fields of the record.
+    fn put(&self, put: &mut Put<'_>);
+}
 
 /// A record that is being written.
 pub struct Put<'a>(&'a mut [u8]);
@@ -21,25 +32,40 @@ impl<'a> Put<'a> {
         self
     }
 
-    pub fn floats(&mut self, floats: &[f32]) -> &mut Self {
+    fn byte(&mut self, byte: u8) -> &mut Self {
+        self.bytes(&[byte])
+    }
+
+    fn floats(&mut self, floats: &[f32]) -> &mut Self {
         floats.iter().fold(self, |put, x| put.bytes(&x.to_ne_bytes()))
     }
 
-    pub fn interval(&mut self, Interval { lower, upper }: Interval) -> &mut Self {
+    /// A place, or NaN.
+    fn place(&mut self, place: Option<[f32; 3]>) -> &mut Self {
+        self.floats(&place.unwrap_or([f32::NAN; 3]))
+    }
+
+    fn interval(&mut self, Interval { lower, upper }: Interval) -> &mut Self {
         self.floats(&[lower, upper])
     }
 
     /// A number of the input file, or -1.
-    pub fn number(&mut self, number: Option<u32>) -> &mut Self {
+    fn number(&mut self, number: Option<u32>) -> &mut Self {
         self.bytes(&number.map_or(-1, i64::from).to_ne_bytes())
     }
 
+    /// Two numbers, or -1 twice.
+    fn numbers<T: Into<u32>>(&mut self, pair: Option<[T; 2]>) -> &mut Self {
+        let [a, b] = pair.map_or([None; 2], |pair| pair.map(|number| Some(number.into())));
+        self.number(a).number(b)
+    }
+
     /// Polyline and segment.
-    pub fn segment(&mut self, at: Option<CurveSegment>) -> &mut Self {
+    fn segment(&mut self, at: Option<CurveSegment>) -> &mut Self {
         self.number(at.map(|at| at.polyline)).number(at.map(|at| at.segment))
     }
 
-    pub fn element(&mut self, element: Option<Element>, is_curve: bool) -> &mut Self {
+    fn element(&mut self, element: Option<Element>, is_curve: bool) -> &mut Self {
         match element {
             Some(Element::Segment(at)) => self.segment(Some(at)),
             Some(Element::Triangle(triangle)) => self.number(Some(triangle)),
@@ -48,34 +74,7 @@ impl<'a> Put<'a> {
         }
     }
 
-    pub fn closest(&mut self, found: &Closest) -> &mut Self {
-        self.interval(found.distance).floats(&found.point);
-        self.element(found.element, found.safe_motion.is_some());
-        self.floats(found.safe_motion.as_slice());
-        self.ended(found.ended).count(found.work.total())
-    }
-
-    pub fn first_hit(&mut self, found: &FirstHit) -> &mut Self {
-        let verdict = match (found.is_clear(), found.ended) {
-            (true, _) => 0,
-            (_, Ended::Exact) => 1,
-            _ => 2,
-        };
-        self.byte(verdict).interval(found.t);
-        self.floats(&found.hit.map_or([f32::NAN; 3], |hit| hit.point));
-        self.number(found.hit.and_then(|hit| hit.triangle));
-        self.ended(found.ended).count(found.work.total())
-    }
-
-    pub fn count(&mut self, count: u32) -> &mut Self {
-        self.bytes(&count.to_ne_bytes())
-    }
-
-    pub fn byte(&mut self, byte: u8) -> &mut Self {
-        self.bytes(&[byte])
-    }
-
-    pub fn verdict(&mut self, verdict: Verdict) -> &mut Self {
+    fn verdict(&mut self, verdict: Verdict) -> &mut Self {
         self.byte(match verdict {
             Verdict::No => 0,
             Verdict::Yes => 1,
@@ -84,12 +83,12 @@ impl<'a> Put<'a> {
     }
 
     /// The verdict of a proof that never tells the opposite.
-    pub fn is_clear(&mut self, is_clear: bool) -> &mut Self {
+    fn is_clear(&mut self, is_clear: bool) -> &mut Self {
         self.byte(if is_clear { 0 } else { 2 })
     }
 
     /// 1 outside, -1 inside, 0 undecided.
-    pub fn side(&mut self, side: Side) -> &mut Self {
+    fn side(&mut self, side: Side) -> &mut Self {
         let sign: i8 = match side {
             Side::Outside => 1,
             Side::Inside => -1,
@@ -98,23 +97,113 @@ impl<'a> Put<'a> {
         self.bytes(&sign.to_ne_bytes())
     }
 
-    pub fn ended(&mut self, ended: Ended) -> &mut Self {
+    /// How a search ended, and its work.
+    fn end(&mut self, ended: Ended, work: Work) {
         self.byte(match ended {
             Ended::Exact => 0,
             Ended::Tolerance => 1,
             Ended::Steps => 2,
             Ended::Scratch => 3,
             _ => 4,
-        })
+        });
+        self.bytes(&work.total().to_ne_bytes());
+    }
+
+    /// The same of a search that gave a verdict.
+    fn end_of(&mut self, verdict: Verdict, work: Work) {
+        let ended = match verdict {
+            Verdict::Yes | Verdict::No => Ended::Exact,
+            Verdict::Undecided(Undecided::Steps) => Ended::Steps,
+            Verdict::Undecided(Undecided::Scratch) => Ended::Scratch,
+            _ => Ended::Resolution,
+        };
+        self.end(ended, work);
     }
 }
 
-/// How a search ended that gave a verdict.
-pub fn ended(verdict: Verdict) -> Ended {
-    match verdict {
-        Verdict::Yes | Verdict::No => Ended::Exact,
-        Verdict::Undecided(Undecided::Steps) => Ended::Steps,
-        Verdict::Undecided(Undecided::Scratch) => Ended::Scratch,
-        _ => Ended::Resolution,
+/// The answers of a row, one behind the other.
+impl<A: Answer> Answer for Vec<A> {
+    fn put(&self, put: &mut Put<'_>) {
+        self.iter().for_each(|answer| answer.put(put));
     }
+}
+
+/// How far a segment is clear.
+pub struct Clipped(pub TriboxBound);
+
+/// Records of answers, each by what it puts in a row.
+macro_rules! records {
+    ($($answer:ty: |$found:ident, $put:ident| $fields:expr;)*) => {$(
+        impl Answer for $answer {
+            fn put(&self, $put: &mut Put<'_>) {
+                let $found = self;
+                $fields;
+            }
+        }
+    )*};
+}
+
+records! {
+    Closest: |near, put| put.interval(near.distance).floats(&near.point)
+        .element(near.element, near.safe_motion.is_some()).floats(near.safe_motion.as_slice())
+        .end(near.ended, near.work);
+    SignedDistance: |found, put| put.interval(found.distance).side(found.side)
+        .floats(&found.closest.point).number(found.closest.triangle)
+        .end(found.closest.ended, found.closest.work);
+    CurveSignedDistance: |found, put| put.interval(found.distance).side(found.side)
+        .floats(&found.closest.point).segment(Some(found.closest.segment))
+        .floats(&[found.closest.safe_motion]).end(found.closest.ended, found.closest.work);
+    DistanceBounds: |found, put| put.interval(found.distance).end(found.ended, found.work);
+    SignedBounds: |found, put| put.interval(found.distance).side(found.side)
+        .end(found.ended, found.work);
+    // With the gradient.
+    (FieldDistance, [f32; 3]): |found, put| put.interval(found.0.distance).side(found.0.side)
+        .floats(&found.1);
+    WindingNumber: |found, put| put.interval(found.number).side(found.side)
+        .end(found.ended, found.work);
+    // And whether it is of curves.
+    (AnyWithin, bool): |found, put| put.verdict(found.0.verdict).element(found.0.element, found.1)
+        .end_of(found.0.verdict, found.0.work);
+    Decided<u32>: |found, put| put.verdict(found.verdict).number(found.witness)
+        .end_of(found.verdict, found.work);
+    Decided<[u32; 2]>: |found, put| put.verdict(found.verdict).numbers(found.witness)
+        .end_of(found.verdict, found.work);
+    Neighbor: |near, put| put.interval(near.distance()).floats(&near.point())
+        .number(Some(near.triangle()));
+    CurveNeighbor: |near, put| put.interval(near.distance()).floats(&near.point())
+        .segment(Some(near.segment()));
+    FirstHit: |found, put| put
+        .byte(match (found.is_clear(), found.ended) {
+            (true, _) => 0,
+            (_, Ended::Exact) => 1,
+            _ => 2,
+        })
+        .interval(found.t).place(found.hit.map(|hit| hit.point))
+        .number(found.hit.and_then(|hit| hit.triangle)).end(found.ended, found.work);
+    TriangleHit: |found, put| put.byte(if found.is_certain { 1 } else { 2 })
+        .floats(&[found.hit.t]).floats(&found.hit.point).number(found.hit.triangle);
+    SolidDistance: |found, put| put.interval(found.distance).floats(found.points.as_flattened())
+        .number(Some(found.triangle)).end(found.ended, found.work);
+    PairDistance: |found, put| put.interval(found.distance).floats(found.points.as_flattened())
+        .numbers(Some(found.triangles)).end(found.ended, found.work);
+    PairContact: |found, put| put.is_clear(found.is_clear()).floats(&[found.clear_until])
+        .floats(found.points.as_flattened()).numbers(Some(found.triangles))
+        .end(found.ended, found.work);
+    TrianglePair: |found, put| put.numbers(Some(found.triangles)).byte(u8::from(found.is_certain));
+    Penetration: |found, put| put
+        .byte(match found.relation {
+            Relation::Apart => 0,
+            Relation::Overlap => 1,
+            Relation::FirstInside => 2,
+            Relation::SecondInside => 3,
+            _ => 4,
+        })
+        .interval(found.depth).place(found.apart.map(|pose| pose.translation))
+        .place(found.deepest).end(found.ended, found.work);
+    TriboxBound: |found, put| put.floats(&[found.lower]).number(found.node)
+        .end(found.ended, found.work);
+    Clipped: |found, put| found.0.put(put.is_clear(found.0.lower == f32::INFINITY));
+    Separation: |found, put| put.is_clear(found.is_apart())
+        .numbers(found.may_meet.map(|pair| [pair.a, pair.b])).end(found.ended, found.work);
+    NodePair: |found, put| put.numbers(Some([found.a, found.b]));
 }

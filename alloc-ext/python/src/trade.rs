@@ -3,12 +3,15 @@
 use crate::build::{named, unit_named};
 use crate::error::{BuildError, of_build, of_query};
 use crate::mesh::Given;
-use crate::pool::on_all_cores;
+use crate::pool::aside;
 use meshsweep::builder::For;
 use meshsweep::trade as of;
 use meshsweep::trade::{Board, Points, Trade};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Predicted instructions of a processor.
 #[derive(IntoPyObject)]
@@ -75,18 +78,24 @@ pub fn trade(
         At::Points(points) => (None, points),
     };
     let (mesh, unit) = (mesh.taken()?, unit_named(unit.as_deref())?);
-    let raised = Mutex::new(None);
-    let tell = |done: usize, of: usize| {
-        let Some(progress) = &progress else { return };
-        Python::attach(|py| {
-            let part = done as f64 / of.max(1) as f64;
-            let told = progress.call1(py, ("measuring", part));
-            if let (Err(error), Ok(mut raised)) = (told, raised.lock()) {
-                raised.get_or_insert(error);
+    let measure = move |stop: &AtomicBool| {
+        let raised = Mutex::new(None);
+        let tell = |done: usize, of: usize| {
+            let told = Python::attach(|py| {
+                if stop.load(Ordering::Relaxed) {
+                    return Err(PyKeyboardInterrupt::new_err("the trade is not complete"));
+                }
+                let told = ("measuring", done as f64 / of.max(1) as f64);
+                progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, told).map(drop))
+            });
+            if let Err(error) = told {
+                if let Ok(mut raised) = raised.lock() {
+                    raised.get_or_insert(error);
+                }
+                // The measurements have no other way out. No panic is reported.
+                resume_unwind(Box::new("stopped"));
             }
-        });
-    };
-    let measure = || {
+        };
         let source = mesh.source(unit)?;
         let loaded = source.repaired().map_err(|error| of_build(&error))?;
         let mesh = &loaded.mesh;
@@ -102,14 +111,15 @@ pub fn trade(
             For::Segment => of::standard_of_segments(),
             _ => of::standard(of::diagonal(mesh), mesh.triangles.len(), kind),
         };
-        of::measure(&source, &loaded, &points, &settings, &tell)
-            .map_err(|error| of_query(None, error))
+        let measure = || of::measure(&source, &loaded, &points, &settings, &tell);
+        let measured = catch_unwind(AssertUnwindSafe(measure));
+        match (raised.into_inner(), measured) {
+            (Ok(Some(error)), _) => Err(error),
+            (_, Ok(measured)) => measured.map_err(|error| of_query(None, error)),
+            (_, Err(panic)) => resume_unwind(panic),
+        }
     };
-    let measured = py.detach(|| on_all_cores(measure))??;
-    match raised.into_inner() {
-        Ok(Some(error)) => Err(error),
-        _ => Ok(told(&measured)),
-    }
+    py.detach(|| aside(measure)).map(|measured| told(&measured))
 }
 
 fn told(trade: &Trade) -> Measured {

@@ -2,10 +2,12 @@
 //! their geometry.
 
 use crate::error::missing;
-use crate::model::{Model, budget, scratch};
+use crate::model::{Model, budget};
 use crate::pairs::pose;
-use crate::rows::{Records, Rows, ask};
-use meshsweep_core::Triboxes;
+use crate::record::Clipped;
+use crate::rows::{Asked, Found, Lists, Records};
+use crate::segments::ends;
+use meshsweep_core::{Budget, NodePair, TriboxCandidates, Triboxes};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -54,64 +56,45 @@ impl Model {
     /// A lower bound of each point's distance.
     fn tribox_distance<'py>(
         &self,
-        py: Python<'py>,
-        points: Rows<'py>,
+        asked: Asked<'py>,
         steps: Option<u32>,
-        size: usize,
     ) -> PyResult<Records<'py>> {
-        let (triboxes, budget) = (self.stored_triboxes()?, budget(0.0, 0.0, steps));
-        ask::<3, _>(py, &points, size, || {
-            let mut scratch = scratch(triboxes.scratch_entries());
-            move |point, mut put| {
-                let found = triboxes.distance(point, budget, &mut scratch)?;
-                put.floats(&[found.lower]).number(found.node);
-                put.ended(found.ended).count(found.work.total());
-                Ok(())
-            }
+        let (triboxes, budget) = (self.stored_triboxes()?, budget((0.0, 0.0, steps)));
+        asked.each(triboxes.scratch_entries(), |point, scratch| {
+            triboxes.distance(point, budget, scratch)
         })
     }
 
     /// The parameter before which each segment is clear. Rows have both ends.
-    fn tribox_hit<'py>(
-        &self,
-        py: Python<'py>,
-        rows: Rows<'py>,
-        steps: Option<u32>,
-        size: usize,
-    ) -> PyResult<Records<'py>> {
-        let (triboxes, budget) = (self.stored_triboxes()?, budget(0.0, 0.0, steps));
-        ask(py, &rows, size, || {
-            let mut scratch = scratch(triboxes.scratch_entries());
-            move |[ax, ay, az, bx, by, bz], mut put| {
-                let found = triboxes.clip([ax, ay, az], [bx, by, bz], budget, &mut scratch)?;
-                put.is_clear(found.lower == f32::INFINITY).floats(&[found.lower]);
-                put.number(found.node).ended(found.ended).count(found.work.total());
-                Ok(())
-            }
+    fn tribox_hit<'py>(&self, asked: Asked<'py>, steps: Option<u32>) -> PyResult<Records<'py>> {
+        let (triboxes, budget) = (self.stored_triboxes()?, budget((0.0, 0.0, steps)));
+        asked.each(triboxes.scratch_entries(), |row, scratch| {
+            let [a, b] = ends(row);
+            triboxes.clip(a, b, budget, scratch).map(Clipped)
         })
     }
 
     /// Whether both are farther than a distance from each other, at each pose of the second.
     fn tribox_separation<'py>(
         &self,
-        py: Python<'py>,
+        asked: Asked<'py>,
         other: &Model,
-        poses: Rows<'py>,
         distance: f32,
-        size: usize,
     ) -> PyResult<Records<'py>> {
         let (first, second) = (self.stored_triboxes()?, other.stored_triboxes()?);
-        let budget = budget(0.0, 0.0, None);
-        ask::<12, _>(py, &poses, size, || {
-            let mut scratch = scratch(first.separation_entries(&second));
-            move |row, mut put| {
-                let found = first.within_of(&second, pose(&row), distance, budget, &mut scratch)?;
-                put.is_clear(found.is_apart());
-                put.number(found.may_meet.map(|pair| pair.a.into()));
-                put.number(found.may_meet.map(|pair| pair.b.into()));
-                put.ended(found.ended).count(found.work.total());
-                Ok(())
-            }
+        asked.each(first.separation_entries(&second), |row: [f32; 12], scratch| {
+            first.within_of(&second, pose(&row), distance, Budget::EXACT, scratch)
+        })
+    }
+
+    /// The pairs of triboxes that may meet.
+    fn tribox_candidates<'py>(&self, asked: Asked<'py>, other: &Model) -> PyResult<Lists<'py>> {
+        let (first, second) = (self.stored_triboxes()?, other.stored_triboxes()?);
+        let entries = first.separation_entries(&second);
+        asked.lists(entries, NodePair::EMPTY, |row: [f32; 12], room, scratch| {
+            let TriboxCandidates { stored, dropped, .. } =
+                first.candidates(&second, pose(&row), room, Budget::EXACT, scratch)?;
+            Ok(Found { stored, dropped, is_complete: true })
         })
     }
 }

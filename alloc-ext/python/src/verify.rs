@@ -4,7 +4,7 @@ use crate::build::unit_named;
 use crate::error::{BuildError, of_build};
 use crate::mesh::{Given, Taken};
 use crate::model::Model;
-use crate::pool::on_all_cores;
+use crate::pool::aside;
 use meshsweep::check::{
     Against, FilePolyline, Finding, Outcome, verify as prove, verify_file, verify_repair,
 };
@@ -13,8 +13,10 @@ use meshsweep::load::{Loaded, Source};
 use meshsweep::mesh::{KeyFrame, Unit};
 use meshsweep::surface::VertexBits;
 use meshsweep_core::internal::format::layout::VertexFormat;
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Structure, outcome, claim, and what was counted.
 type Found = (&'static str, &'static str, String, Vec<(&'static str, usize)>);
@@ -23,13 +25,14 @@ type Found = (&'static str, &'static str, String, Vec<(&'static str, usize)>);
 #[pyfunction]
 pub fn verify(
     py: Python<'_>,
-    model: &Model,
+    model: Py<Model>,
     mesh: Given<'_>,
     unit: Option<String>,
     frames: Vec<PathBuf>,
 ) -> PyResult<Vec<Found>> {
     let (mesh, unit) = (mesh.taken()?, unit_named(unit.as_deref())?);
-    let findings = py.detach(|| on_all_cores(|| of_any(model, mesh, unit, &frames)))??;
+    let prove = move |stop: &AtomicBool| of_any(model.get(), mesh, unit, &frames, stop);
+    let findings = py.detach(|| aside(prove))?;
     let found = |Finding { structure, outcome, words, counts }| {
         let outcome = match outcome {
             Outcome::Proved => "proved",
@@ -46,6 +49,7 @@ fn of_any(
     mesh: Taken,
     unit: Option<Unit>,
     frames: &[PathBuf],
+    stop: &AtomicBool,
 ) -> PyResult<Vec<Finding>> {
     let blob = model.blob();
     if blob.curve().is_ok() {
@@ -68,12 +72,12 @@ fn of_any(
         let frames = frames.iter().map(|frame| Source::of_file(frame, unit));
         let deformable = source.deformable(frames, hull.rest().encloses());
         let (loaded, keys) = deformable.map_err(refused)?;
-        return Ok(of_mesh(model.raw(), &source, &loaded, &keys));
+        return of_mesh(model.raw(), &source, &loaded, &keys, stop);
     }
     if !frames.is_empty() {
         return Err(BuildError::new_err("frames: the model has no key frames"));
     }
-    let found = of_mesh(model.raw(), &source, &source.repaired().map_err(refused)?, &[]);
+    let found = of_mesh(model.raw(), &source, &source.repaired().map_err(refused)?, &[], stop)?;
     // A hull on a grid may have moved the mesh before its repair.
     let bits = match blob.hull().map(|_| blob.header().vertex_format) {
         Ok(VertexFormat::Grid16) => VertexBits::Grid16,
@@ -83,12 +87,26 @@ fn of_any(
     if found.iter().all(|finding| finding.outcome == Outcome::Proved) {
         return Ok(found);
     }
-    Ok(of_mesh(model.raw(), &source, &source.on_grid(bits).map_err(refused)?, &[]))
+    of_mesh(model.raw(), &source, &source.on_grid(bits).map_err(refused)?, &[], stop)
 }
 
-fn of_mesh(bytes: &[u8], source: &Source, loaded: &Loaded, keys: &[KeyFrame]) -> Vec<Finding> {
+/// The findings of three proofs, the last ones unless Ctrl-C made them idle.
+fn of_mesh(
+    bytes: &[u8],
+    source: &Source,
+    loaded: &Loaded,
+    keys: &[KeyFrame],
+    stop: &AtomicBool,
+) -> PyResult<Vec<Finding>> {
+    let goes_on = || match stop.load(Ordering::Relaxed) {
+        true => Err(PyKeyboardInterrupt::new_err("the proofs are not complete")),
+        false => Ok(()),
+    };
+    goes_on()?;
     let mut findings = vec![verify_repair(source.raw(), loaded.input())];
+    goes_on()?;
     findings.extend(prove(bytes, Against::Mesh(loaded.input(), keys)));
+    goes_on()?;
     findings.extend(verify_file(bytes, source.raw()));
-    findings
+    Ok(findings)
 }

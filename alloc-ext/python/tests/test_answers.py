@@ -226,7 +226,7 @@ def test_no_verdict_about_a_rounded_distance_is_wrong_even_if_each_one_asked_is_
         return found
 
     for distance in 1 + np.linspace(-1e-7, 1e-7, 41):
-        found = meshsweep._asked(ask, distance, np.zeros(1))
+        found = meshsweep._rounding.asked(ask, distance, np.zeros(1))
         assert (truths[found.verdict == Verdict.NO] > distance).all()
         assert (truths[found.verdict == Verdict.YES] <= distance).all()
         assert (found.verdict == Verdict.NO).any() and (found.verdict == Verdict.YES).any()

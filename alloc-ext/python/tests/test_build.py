@@ -216,6 +216,25 @@ def test_ctrl_c_ends_a_question_soon():
     assert time.perf_counter() - sent[0] < 2
 
 
+@pytest.mark.parametrize("what", ["verify", "trade"])
+def test_ctrl_c_ends_a_proof_and_a_trade_soon(what):
+    mesh = sphere(6, 8)
+    part = meshsweep.build(mesh, "closest,sdf", sdf_bytes=4096, sdf_layout="lattice")
+    sent = []
+
+    def send():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Timer(0.3, send).start()
+    with pytest.raises(KeyboardInterrupt):
+        meshsweep.verify(part, mesh) if what == "verify" else meshsweep.trade(sphere(20, 30))
+    assert time.perf_counter() - sent[0] < 1
+    # Threads that work on are not those of questions.
+    before = time.perf_counter()
+    assert part.closest_point([0, 0, 3]).lower <= 2 and time.perf_counter() - before < 5
+
+
 def test_damaged_bytes_are_refused():
     part = bytearray(bytes(meshsweep.build(sphere())))
     part[100] ^= 1

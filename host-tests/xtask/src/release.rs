@@ -14,6 +14,10 @@ use crate::workspace;
 /// The oldest Rust that the crates support: `rust-version`.
 const OLDEST: &str = env!("CARGO_PKG_RUST_VERSION");
 
+/// The compiler of the documentation and of the lists, by its day: of another day's the lists may
+/// differ, and [`LISTER`] may not read its JSON.
+const NIGHTLY: &str = "nightly-2026-10-30";
+
 /// Lists public items from rustdoc's JSON, whose format depends on the compiler.
 const LISTER: (&str, &str) = ("cargo-public-api", "0.52.0");
 
@@ -66,7 +70,7 @@ fn oldest() -> Result<(), String> {
 fn documentation() -> Result<(), String> {
     for name in CRATES {
         let doc = ["doc", "--quiet", "--locked", "--no-deps", "--all-features", "--package", name];
-        let mut command = cargo_of("nightly")?;
+        let mut command = cargo_of(NIGHTLY)?;
         process::run(command.args(doc).env("RUSTDOCFLAGS", "--cfg docsrs -D warnings"))?;
     }
     Ok(())
@@ -88,10 +92,10 @@ fn lister() -> Result<PathBuf, String> {
 /// types implement, and compares them with `host-tests/interface`, or writes them there.
 fn interface(lister: &Path, name: &str, is_update: bool) -> Result<(), String> {
     let file = workspace::root().join("host-tests/interface").join(name).with_extension("txt");
-    // The lister runs cargo of the nightly compiler by itself.
-    cargo_of("nightly")?;
+    // The lister runs cargo of this compiler by itself.
+    cargo_of(NIGHTLY)?;
     let mut list = Command::new(lister);
-    list.current_dir(workspace::root()).env("RUSTUP_TOOLCHAIN", "nightly");
+    list.current_dir(workspace::root()).env("RUSTUP_TOOLCHAIN", NIGHTLY);
     list.args(["--package", name, "-sss", "--color", "never", "--target-dir"]);
     list.arg(workspace::target().join("release-checks/interface"));
     let now = process::capture(&mut list)?;

@@ -1,9 +1,14 @@
 """Answers as NumPy records. `src/*.rs` writes them in this order."""
 
+import itertools
+from collections.abc import Callable
 from enum import IntEnum
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
+from numpy.typing import NDArray
+
+Records = np.recarray[Any, Any]
 
 _INTERVAL = [("lower", "f4"), ("upper", "f4")]
 _END = [("ended", "u1"), ("work", "u4")]
@@ -27,7 +32,10 @@ FIRST_HIT = np.dtype(
     [("verdict", "u1"), ("t_lower", "f4"), ("t_upper", "f4"), _POINT, ("triangle", "i8"), *_END]
 )
 ALL_HITS = np.dtype([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")])
+BOUNDS = np.dtype([*_INTERVAL, *_END])
+SIGNED_BOUNDS = np.dtype([*_INTERVAL, ("side", "i1"), *_END])
 FIELD = np.dtype([*_INTERVAL, ("side", "i1"), ("gradient", "f4", 3)])
+SOLID = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangle", "i8"), *_END])
 PAIR = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END])
 MOVED = np.dtype(
     [
@@ -36,9 +44,14 @@ MOVED = np.dtype(
     ]
 )
 MEETS = np.dtype([("verdict", "u1"), ("triangles", "i8", 2), *_END])
+OVERLAP = np.dtype([("triangles", "i8", 2), ("is_certain", "?")])
+PENETRATION = np.dtype(
+    [("relation", "u1"), *_INTERVAL, ("apart", "f4", 3), ("deepest", "f4", 3), *_END]
+)
 TRIBOX = np.dtype([("lower", "f4"), ("tribox", "i8"), *_END])
 TRIBOX_HIT = np.dtype([("verdict", "u1"), ("t_lower", "f4"), ("tribox", "i8"), *_END])
 TRIBOX_PAIR = np.dtype([("verdict", "u1"), ("triboxes", "i8", 2), *_END])
+CANDIDATE = np.dtype([("triboxes", "i8", 2)])
 
 DIRECTIONS = np.array(
     [
@@ -71,6 +84,20 @@ class Side(IntEnum):
     OUTSIDE = 1
 
 
+class Relation(IntEnum):
+    """How two solids lie to each other. All but `UNDECIDED` are proved; `APART` alone is falsy."""
+
+    APART = 0
+    """No point is inside both."""
+    OVERLAP = 1
+    """The surfaces meet, or points are inside both."""
+    FIRST_INSIDE = 2
+    """The surfaces do not meet, and a component of the first lies inside the second."""
+    SECOND_INSIDE = 3
+    """The surfaces do not meet, and a component of the second lies inside the first."""
+    UNDECIDED = 4
+
+
 class Ended(IntEnum):
     """Why a search ended. Intervals hold with every reason."""
 
@@ -95,6 +122,21 @@ class Facing(IntEnum):
     BACK = 2
 
 
-def records(raw: np.ndarray[Any, Any], dtype: np.dtype[Any]) -> np.recarray[Any, Any]:
-    """The records of packed bytes, whose fields are attributes too."""
-    return raw.view(dtype).view(np.recarray)
+def ask(
+    question: Callable[..., Any], dtype: np.dtype[Any], rows: NDArray[np.float32], *how: Any
+) -> Records:
+    """The records of a question's answers to rows. Fields are attributes too."""
+    return cast(Records, question((rows, dtype.itemsize), *how).view(dtype).view(np.recarray))
+
+
+def ask_lists(
+    question: Callable[..., Any], dtype: np.dtype[Any], rows: NDArray[np.float32], *how: Any
+) -> tuple[NDArray[np.uint64], Records, NDArray[np.bool_]]:
+    """Where the records of each row begin, all records, and of each row whether none is missing."""
+    begins, raw, is_complete = question((rows, dtype.itemsize), *how)
+    return begins, raw.view(dtype).view(np.recarray), is_complete
+
+
+def parts(begins: NDArray[np.uint64], found: Records) -> list[Records]:
+    """The records of each row."""
+    return [cast(Records, found[begin:end]) for begin, end in itertools.pairwise(begins)]

@@ -1,0 +1,192 @@
+"""Questions about points: of surfaces, and of curves and fences."""
+
+from __future__ import annotations
+
+from typing import SupportsFloat, cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _records
+from ._arrays import checked, limits, rows, whole
+from ._meshsweep import QueryError
+from ._opened import Opened
+from ._records import Records, ask, ask_lists, parts
+from ._rounding import asked, least, rounded, widened
+
+
+class Points(Opened):
+    """Questions about points."""
+
+    def _points(self, points: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
+        return rounded(rows(points, "points", (3, 2) if self._facts["is_flat"] else (3,)))
+
+    def closest_point(
+        self,
+        points: ArrayLike,
+        *,
+        rel: SupportsFloat = 0.0,
+        abs: SupportsFloat = 0.0,
+        steps: int | None = None,
+    ) -> Records:
+        """The distance of each point from the surface, and a point of the surface.
+
+        Fields: `lower` and `upper`, which contain the distance to the input mesh; `point`, of the
+        surface and at most `upper` away from the rounded query; `triangle`, its number in the
+        input file, or -1; `ended`; `work`. Curves have `polyline`, `segment` and `safe_motion` in
+        place of `triangle`: of every point that is less than `safe_motion` away from the one given,
+        the segment is the closest one. 0 is no statement.
+
+        A search ends once the interval is narrower than `rel` of the distance or than `abs`, or
+        after so many `steps`: the interval is wider then, and holds.
+        """
+        dtype = _records.CLOSEST_ON_CURVE if self._facts["is_curve"] else _records.CLOSEST
+        near, moved = self._points(points)
+        found = ask(self._model.closest_point, dtype, near, limits(rel, abs, steps))
+        return widened(found, moved)
+
+    def signed_distance(self, points: ArrayLike, *, steps: int | None = None) -> Records:
+        """The distance of each point, negative inside.
+
+        trimesh and libigl differ: trimesh's `signed_distance` is positive inside.
+
+        Fields: `lower`, `upper`, `side` (a `Side`), and those of `closest_point`. An undecided side
+        has an interval with both signs. The side is by the nearest triangle of a closed mesh; where
+        that is undecided, and of open meshes, by the winding number, if `for_` names "winding".
+
+        The winding number of an open mesh passes 1/2 away from the surface. So it tells no side of
+        a point that single precision does not hold: of an open mesh such points are undecided. Give
+        float32 to have their sides.
+
+        Of a fence, which is closed curves in a plane of constant z, `points` have shape (n, 2), and
+        `INSIDE` says that the fence allows the point: it is in an inclusion zone, or there is none,
+        and in no exclusion zone. Fields are `polyline`, `segment` and `safe_motion` in place of
+        `triangle`. The distance is that of the nearest line of any zone.
+        """
+        question, steps = self._model.signed_distance, whole(steps, "steps")
+        if self._facts["is_curve"]:
+            near, moved = rounded(rows(points, "points", (2,)))
+            return widened(ask(question, _records.SIGNED_OF_FENCE, near, steps, False), moved)
+        near, moved = rounded(rows(points, "points"))
+        found = ask(question, _records.SIGNED, near, steps, moved is not None)
+        if moved is not None and "winding" in self._facts["serves"]:
+            is_held = moved == 0
+            if np.any(is_held):
+                found[is_held] = ask(question, _records.SIGNED, near[is_held], steps, False)
+        return widened(found, moved)
+
+    def within(
+        self,
+        points: ArrayLike,
+        distance: SupportsFloat,
+        *,
+        steps: int | None = None,
+        field_first: bool = False,
+    ) -> Records:
+        """Whether the surface is at most `distance` from each point.
+
+        Fields: `verdict` (a `Verdict`: 0 only where it is proved that nothing is so near);
+        `triangle`, the witness of a `YES`, or -1; of curves `polyline` and `segment`; `ended`;
+        `work`. Deep inside a part nothing is near.
+
+        With `field_first` the distance field answers where it decides, and the box tree elsewhere:
+        faster, but the field names no triangle with a `YES`. Needs "closest,sdf".
+        """
+        near, moved = self._points(points)
+        dtype = _records.WITHIN_OF_CURVE if self._facts["is_curve"] else _records.WITHIN
+        how = whole(steps, "steps"), field_first
+
+        def question(limits: NDArray[np.float32]) -> Records:
+            limits = np.broadcast_to(limits[:, None], (len(near), 1))
+            return ask(self._model.within, dtype, np.hstack([near, limits]), *how)
+
+        slack = np.zeros(1) if moved is None else moved.astype(np.float64)
+        return asked(question, checked(distance), slack)
+
+    def nearest(self, points: ArrayLike, count: int) -> Records:
+        """The `count` triangles nearest to each point, nearest first: shape (n, count).
+
+        Fields: `lower`, `upper`, `point`, `triangle`; of curves `polyline` and `segment`. A mesh
+        with fewer triangles has fewer.
+        """
+        near, moved = self._points(points)
+        if not whole(count, "count"):
+            raise QueryError("count: at least 1 is wanted")
+        dtype = _records.NEAREST_ON_CURVE if self._facts["is_curve"] else _records.NEAREST
+        found = ask(self._model.nearest, dtype, near, count)
+        each = found.reshape(len(near), -1 if len(near) else count)
+        return widened(cast(Records, each), moved)
+
+    def all_within(self, points: ArrayLike, distance: SupportsFloat) -> list[Records]:
+        """All triangles that may be at most `distance` from each point: a list of n records.
+
+        Fields: `lower`, `upper`, `point`, `triangle` (of curves `polyline` and `segment`), and
+        `is_certain`: false of triangles that are perhaps a little farther. Lists are complete,
+        always: no other triangle is so near. Points in double precision that single precision does
+        not hold are refused.
+        """
+        near, moved = self._points(points)
+        if moved is not None:
+            raise QueryError("all_within: the points are not in single precision; round them first")
+        limit = checked(distance)
+        dtype = _records.ALL_WITHIN_OF_CURVE if self._facts["is_curve"] else _records.ALL_WITHIN
+        begins, found, _ = ask_lists(self._model.all_within, dtype, near, least(limit))
+        found.is_certain[:] = found.upper.astype(np.float64) <= limit
+        return parts(begins, found)
+
+    def winding_number(self, points: ArrayLike) -> Records:
+        """How often the mesh encloses each point. Needs "winding" among the words of `for_`.
+
+        Fields: `lower` and `upper`, which contain the winding number of the input's triangles;
+        `side`; `ended`; `work`. The points are rounded to single precision.
+        """
+        near, _ = rounded(rows(points, "points"))
+        return ask(self._model.winding_number, _records.WINDING, near)
+
+    def field_distance(self, points: ArrayLike) -> Records:
+        """Bounds of the distance by the distance field: the bits that a Cortex-M computes.
+
+        Needs "sdf" among the words of `for_`. Fields: `lower`, `upper`; `side`; `gradient`, the
+        direction in which the distance rises, without a guarantee.
+        """
+        near, moved = rounded(rows(points, "points"))
+        found = ask(self._model.field, _records.FIELD, near)
+        return widened(found, moved, is_signed=self.field_kind == "signed")
+
+    def distance_bounds(
+        self,
+        points: ArrayLike,
+        *,
+        rel: SupportsFloat = 0.0,
+        abs: SupportsFloat = 0.0,
+        steps: int | None = None,
+    ) -> Records:
+        """Bounds of the distance of each point from the surface, by the distance field first.
+
+        Where the field's interval is narrower than `rel` of the distance or than `abs`, it is the
+        answer, for the cost of a look-up. Elsewhere the box tree searches between its ends. Without
+        a tolerance the box tree always searches. Needs "closest,sdf".
+
+        Fields: `lower`, `upper`; `ended`; `work`, 0 where the field answered alone.
+        """
+        near, moved = rounded(rows(points, "points"))
+        how = limits(rel, abs, steps)
+        return widened(ask(self._model.distance_bounds, _records.BOUNDS, near, how), moved)
+
+    def signed_bounds(
+        self,
+        points: ArrayLike,
+        *,
+        rel: SupportsFloat = 0.0,
+        abs: SupportsFloat = 0.0,
+        steps: int | None = None,
+    ) -> Records:
+        """The same of the signed distance, negative inside, with the `side`.
+
+        A field of kind "signed" tells sides, one of kind "solid" that of points outside. Elsewhere
+        the box tree searches the side by the nearest triangle, without a tolerance. An undecided
+        side has an interval with both signs, or with 0 at an end.
+        """
+        near, moved = rounded(rows(points, "points"))
+        how = limits(rel, abs, steps)
+        return widened(ask(self._model.signed_bounds, _records.SIGNED_BOUNDS, near, how), moved)

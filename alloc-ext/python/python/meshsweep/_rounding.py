@@ -1,0 +1,97 @@
+"""Answers about what callers give in double precision, from questions in single precision."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._arrays import single
+from ._records import Ended, Records, Side, Verdict
+
+
+def rounded(rows: NDArray[Any]) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
+    """Points in single precision, and bounds of how far each was moved, if any was."""
+    near = single(rows)
+    if rows.dtype.kind == "f" and rows.dtype.itemsize <= 4:
+        return near, None
+    with np.errstate(over="ignore"):
+        wide = rows.astype(np.float64)
+    # These differences are exact. A number that is not finite is refused later.
+    with np.errstate(invalid="ignore"):
+        off = np.abs(wide - near)
+    if rows.dtype.kind in "iu" or rows.dtype.itemsize > 8:
+        # Other numbers were perhaps rounded to double precision before.
+        is_exact = (np.abs(wide) < 2.0**53) if rows.dtype.kind in "iu" else wide == rows
+        off = np.where(is_exact, off, off + np.abs(wide) * 2.0**-52)
+    off[~np.isfinite(off)] = 0.0
+    if not np.any(off):
+        return near, None
+    moved = np.nextafter(np.linalg.norm(off, axis=-1).astype(np.float32), np.float32(np.inf))
+    return near, np.where(np.any(off, axis=-1), moved, np.float32(0))
+
+
+def widened(
+    found: Records, moved: NDArray[np.float32] | None, *, is_signed: bool = True
+) -> Records:
+    """Intervals of distances that hold for points before rounding. `is_signed`: those of records
+    with a side may be negative."""
+    if moved is None:
+        return found
+    slack = moved.reshape(moved.shape + (1,) * (found.ndim - 1))
+    is_held = slack == 0
+    names = found.dtype.names or ()
+    lower = np.nextafter(found.lower - slack, np.float32(-np.inf))
+    lower = np.where(is_held, found.lower, lower)
+    if "upper" in names:
+        upper = np.nextafter(found.upper + slack, np.float32(np.inf))
+        upper = found.upper[:] = np.where(is_held, found.upper, upper)
+    if "side" in names:
+        certain = np.where(lower > 0, Side.OUTSIDE, np.where(upper < 0, Side.INSIDE, 0))
+        found.side[:] = np.where(is_held | (found.side == certain), found.side, 0)
+    if "side" not in names or not is_signed:
+        lower = np.maximum(lower, np.float32(0))
+    if "safe_motion" in names:
+        left = np.nextafter(found.safe_motion - slack, np.float32(-np.inf))
+        left = np.where(is_held, found.safe_motion, left)
+        found.safe_motion[:] = np.maximum(left, np.float32(0))
+    found.lower[:] = lower
+    return found
+
+
+def asked(
+    ask: Callable[[NDArray[np.float32]], Records], distance: float, slack: NDArray[np.float64]
+) -> Records:
+    """Verdicts about `distance`, which single precision may not hold, with so much slack.
+
+    Farther than the distance and the slack is farther; nearer than the distance less the slack is
+    nearer; the rest is undecided.
+    """
+    if float(np.float32(distance)) == distance and not np.any(slack):
+        return ask(np.array([distance], np.float32))
+    found = ask(up(distance + slack))
+    near = ask(down(np.maximum(distance - slack, 0.0)))
+    is_near = (near.verdict == Verdict.YES) & (distance >= slack)
+    is_open = (found.verdict == Verdict.YES) & ~is_near
+    found[is_near] = near[is_near]
+    found.verdict[is_open] = Verdict.UNDECIDED
+    found.ended[is_open] = Ended.RESOLUTION
+    for witness in {"triangle", "triangles", "polyline", "segment"} & {*(found.dtype.names or ())}:
+        found[witness][is_open] = -1
+    return found
+
+
+def up(values: NDArray[np.float64]) -> NDArray[np.float32]:
+    return np.nextafter(values.astype(np.float32), np.float32(np.inf))
+
+
+def down(values: NDArray[np.float64]) -> NDArray[np.float32]:
+    return np.maximum(np.nextafter(values.astype(np.float32), np.float32(-np.inf)), np.float32(0))
+
+
+def least(limit: float) -> float:
+    """The distance, or a little more that single precision holds."""
+    single = np.float32(limit)
+    return float(np.nextafter(single, np.float32(np.inf)) if float(single) < limit else single)

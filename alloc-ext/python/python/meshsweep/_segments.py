@@ -1,0 +1,85 @@
+"""Questions about segments and rays."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _records
+from ._arrays import facing as facing_of
+from ._arrays import pairs, whole
+from ._opened import Opened
+from ._records import Facing, Records, ask, ask_lists, parts
+
+
+class AllHits(NamedTuple):
+    """The triangles that each of n segments or rays meets."""
+
+    hits: list[Records]
+    """A list of n records."""
+    is_complete: NDArray[np.bool_]
+    """Shape (n,): whether it is proved that no other triangle is hit."""
+
+
+class Segments(Opened):
+    """Questions about segments and rays."""
+
+    def first_hit(
+        self,
+        starts: ArrayLike,
+        ends: ArrayLike,
+        *,
+        facing: Facing | int = Facing.BOTH,
+        steps: int | None = None,
+    ) -> Records:
+        """The first point of each segment that lies on the surface.
+
+        Fields: `verdict`: `NO` where it is proved that the segment is clear, `UNDECIDED` where it
+        touches or the steps ended; `t_lower`, `t_upper`, which contain the parameter of the first
+        common point, 0 at the start and 1 at the end, infinite if there is none; `point`, NaN
+        without a hit; `triangle`, or -1; `ended`; `work`.
+        """
+        return self._first_hit(starts, ends, False, facing, steps)
+
+    def first_hit_of_ray(
+        self,
+        origins: ArrayLike,
+        directions: ArrayLike,
+        *,
+        facing: Facing | int = Facing.BOTH,
+        steps: int | None = None,
+    ) -> Records:
+        """The same of rays without an end. The parameter counts lengths of the direction."""
+        return self._first_hit(origins, directions, True, facing, steps)
+
+    def _first_hit(
+        self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing | int, steps: int | None
+    ) -> Records:
+        how = is_ray, facing_of(facing), whole(steps, "steps")
+        return ask(self._model.first_hit, _records.FIRST_HIT, pairs(a, b), *how)
+
+    def all_hits(
+        self, starts: ArrayLike, ends: ArrayLike, *, facing: Facing | int = Facing.BOTH
+    ) -> AllHits:
+        """All triangles that each segment meets, first ones first: lists of n records.
+
+        Fields: `verdict`, `YES` or `UNDECIDED`; `t`; `point`; `triangle`. No other triangle is hit
+        where `is_complete`. Elsewhere the segment passes so near to a triangle that what is stored
+        does not tell whether it hits: such a triangle may be missing. So an empty list is clear
+        only where `is_complete`; `first_hit` tells by its verdict.
+        """
+        return self._all_hits(starts, ends, False, facing)
+
+    def all_hits_of_ray(
+        self, origins: ArrayLike, directions: ArrayLike, *, facing: Facing | int = Facing.BOTH
+    ) -> AllHits:
+        """The same of rays without an end. The parameter counts lengths of the direction."""
+        return self._all_hits(origins, directions, True, facing)
+
+    def _all_hits(self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing | int) -> AllHits:
+        how = is_ray, facing_of(facing)
+        question = self._model.all_hits
+        begins, found, is_complete = ask_lists(question, _records.ALL_HITS, pairs(a, b), *how)
+        return AllHits(parts(begins, found), is_complete)

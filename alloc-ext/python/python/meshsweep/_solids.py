@@ -1,0 +1,143 @@
+"""Questions about convex solids, at rest and on their way."""
+
+from __future__ import annotations
+
+from typing import SupportsFloat
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _records
+from ._arrays import checked, limits, pairs, rows, single, solids, whole
+from ._meshsweep import QueryError
+from ._opened import Opened
+from ._records import Records, ask
+from ._rounding import asked, rounded, widened
+
+
+def _placed(corners: ArrayLike, what: str) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Rows of corners in single precision, and bounds of how far a corner of each was moved."""
+    near, moved = rounded(solids(corners, what))
+    flat = near.reshape(len(near), 3 * near.shape[1])
+    return flat, np.zeros(len(near), np.float32) if moved is None else moved.max(axis=1)
+
+
+class Solids(Opened):
+    """Questions about convex solids.
+
+    A solid is all points within a radius of the hull of its 1 to 32 corners: one corner is a ball,
+    two are a capsule, eight a box. Only the surface of the mesh counts: a solid inside may be clear.
+    All need "segment" among the words of `for_`. Corners are rounded to single precision, and the
+    answers include that.
+    """
+
+    def solid_distance(
+        self,
+        corners: ArrayLike,
+        *,
+        radius: SupportsFloat = 0.0,
+        rel: SupportsFloat = 0.0,
+        abs: SupportsFloat = 0.0,
+        steps: int | None = None,
+    ) -> Records:
+        """The distance of each solid from the surface.
+
+        `corners`: shape (n, k, 3), in the mesh's frame: those of a robot's link at n poses are
+        `corners @ poses[:, :3, :3].swapaxes(1, 2) + poses[:, None, :3, 3]`.
+
+        Fields: `lower` and `upper`, which is 0 if it is proved that they meet; `points`, of the
+        hull of the corners, and of the surface; `triangle`; `ended`; `work`.
+        """
+        near, moved = _placed(corners, "corners")
+        size = checked(radius, "radius")
+        how = float(np.float32(size)), limits(rel, abs, steps)
+        slack = _slack(moved, size).astype(np.float32)
+        slack = np.where(slack > 0, np.nextafter(slack, np.float32(np.inf)), slack)
+        return widened(ask(self._model.solid_distance, _records.SOLID, near, *how), slack)
+
+    def solid_within(
+        self,
+        corners: ArrayLike,
+        distance: SupportsFloat,
+        *,
+        radius: SupportsFloat = 0.0,
+        steps: int | None = None,
+        field_first: bool = False,
+    ) -> Records:
+        """Whether the surface is at most `distance` from each solid; 0 asks whether they meet.
+
+        `corners` as those of `solid_distance`. Fields: `verdict`; `triangle`, the witness of a
+        `YES`, or -1; `ended`; `work`. A flat solid without radius that passes through the surface
+        is `UNDECIDED`. With `field_first` the distance field decides about balls and capsules where
+        it can; a `YES` of the field has no witness. Needs "sdf" too.
+        """
+        near, moved = _placed(corners, "corners")
+        size = checked(radius, "radius")
+        how = float(np.float32(size)), whole(steps, "steps"), field_first
+
+        def question(limits: NDArray[np.float32]) -> Records:
+            limits = np.broadcast_to(limits[:, None], (len(near), 1))
+            question = self._model.solid_within
+            return ask(question, _records.WITHIN, np.hstack([near, limits]), *how)
+
+        return asked(question, checked(distance), _slack(moved, size))
+
+    def solid_first_contact(
+        self,
+        from_corners: ArrayLike,
+        to_corners: ArrayLike,
+        *,
+        radius: SupportsFloat = 0.0,
+        steps: int | None = None,
+        field_first: bool = False,
+    ) -> Records:
+        """Where each solid first meets the surface on its way: each corner goes straight from its
+        place at the start to that at the end.
+
+        Corners as those of `solid_distance`, equally many at both ends. A solid that turns shrinks
+        on the way, and so it is for small turns. Fields: those of `first_contact`. With
+        `field_first` the distance field proves ways clear where it can. Needs "sdf" too.
+        """
+        begins, moved = _placed(from_corners, "from_corners")
+        ends, moved_there = _placed(to_corners, "to_corners")
+        if begins.shape != ends.shape:
+            shapes = [(len(flat), flat.shape[1] // 3) for flat in (begins, ends)]
+            raise QueryError(f"solids and their corners at the start, at the end: {shapes}")
+        moved = np.maximum(moved, moved_there)
+        moves = np.hstack([begins, ends, moved[:, None]])
+        how = checked(radius, "radius"), whole(steps, "steps"), field_first
+        return ask(self._model.solid_first_contact, _records.FIRST_HIT, moves, *how)
+
+    def first_contact(
+        self,
+        starts: ArrayLike,
+        ends: ArrayLike,
+        *,
+        radius: SupportsFloat = 0.0,
+        tool: ArrayLike = (0.0, 0.0, 0.0),
+        steps: int | None = None,
+    ) -> Records:
+        """Where a convex tool that is carried straight from each start to its end first meets the
+        surface. Needs "segment".
+
+        The tool is all points within `radius` of the hull of its 1 to 32 corners, shape (k, 3),
+        relative to start and end: one corner is a ball, two are a capsule. To keep a distance, add
+        it to the radius.
+
+        Fields: those of `first_hit`. `NO` where it is proved that no point of the tool touches the
+        mesh at any instant, `YES` where it certainly meets the mesh by `t_upper`; before `t_lower`
+        it is clear. `point` is of the triangle that may stop it. Only the surface counts. Starts,
+        ends and corners are rounded to single precision. The rounding of their sums, and of the
+        radius, is in the answer: a tool without radius may stay `UNDECIDED` where it hits.
+        """
+        corners = single(rows(tool, "tool"))
+        if not 1 <= len(corners) <= 32:
+            raise QueryError(f"tool: 1 to 32 corners are wanted, not {len(corners)}")
+        how = corners, checked(radius, "radius"), whole(steps, "steps")
+        return ask(self._model.first_contact, _records.FIRST_HIT, pairs(starts, ends), *how)
+
+
+def _slack(moved: NDArray[np.float32], radius: float) -> NDArray[np.float64]:
+    """How far rounding moved the surface of each solid, at most."""
+    off = abs(radius - float(np.float32(radius)))
+    return np.add(moved, off, dtype=np.float64)
