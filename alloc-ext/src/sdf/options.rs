@@ -25,8 +25,8 @@ pub struct SdfOptions {
     pub margin: Option<f64>,
     /// What distances mean. `None`: signed if the mesh is closed and has sides, else surface.
     pub kind: Option<SdfKind>,
-    /// How the field lies in its bytes. `None`: both are built, and the one of the smaller mean
-    /// width is kept, or with an error the one of fewer bytes.
+    /// How the field lies in its bytes. `None`: the layout whose samples need the smaller mean
+    /// width; with an error, both are built and the one of fewer bytes is kept.
     pub layout: Option<SdfLayout>,
 }
 

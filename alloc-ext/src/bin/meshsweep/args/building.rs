@@ -119,7 +119,7 @@ pub struct BuildArgs {
     pub sdf_kind: Option<SdfKind>,
     /// How the field lies in its bytes: lattice or tree
     ///
-    /// By default both are built, and the one whose intervals are narrower is kept.
+    /// By default the one whose intervals are narrower, before the proof.
     #[arg(
         long,
         value_name = "LAYOUT",
