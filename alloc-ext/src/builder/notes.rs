@@ -184,7 +184,8 @@ fn of_sdf(options: &Options, report: &SdfReport) -> Vec<String> {
         let [kept, other] = if of_tree { ["tree", "lattice"] } else { ["lattice", "tree"] };
         let [of_kept, of_other] = widths.map(About);
         texts.push(format!(
-            "{kept} kept: before the proof {of_kept} wide, a {other} of as many bytes {of_other}"
+            "{kept} kept: its mean width before the proof was {of_kept}, that of a {other} of as \
+             many bytes {of_other}"
         ));
     }
     texts.push(format!(

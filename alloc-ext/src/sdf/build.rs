@@ -1,7 +1,7 @@
 //! The build of a field: which one is kept.
 
 use super::domain::Domain;
-use super::field::{Field, SdfReport, Work};
+use super::field::{Draft, Field, SdfReport, Work};
 use super::options::SdfOptions;
 use super::tree::{self, Beside};
 use crate::bvh::FileSides;
@@ -88,14 +88,21 @@ impl Work<'_> {
         if self.options.layout == Some(SdfLayout::Tree) && bytes < LEAST_OF_TREE {
             return Err(BuildError::FieldTooSmall { bytes, least: LEAST_OF_TREE });
         }
+        // Of the time: lattice's draft, tree's draft, the proof of one.
+        let [of_lattice, of_tree] = match self.options.layout {
+            Some(SdfLayout::Lattice) => [0.4, 0.4],
+            Some(SdfLayout::Tree) => [0.0, 1.0],
+            _ => [0.2, 0.7],
+        };
         let lattice = match is_wanted(SdfLayout::Lattice) {
-            true => Some(self.draft(bytes as usize, watch.part(0.0, 0.2))?),
+            true => Some(self.draft(bytes as usize, watch.part(0.0, of_lattice))?),
             false => None,
         };
-        let of_lattice = lattice.as_ref().map(|draft| draft.mean_width(self.kind));
-        let (tree, of_tree) = match is_wanted(SdfLayout::Tree) {
+        let lattice = lattice.filter(Draft::has_room);
+        let width = lattice.as_ref().map(|draft| draft.mean_width(self.kind));
+        let (tree, width_of_tree) = match is_wanted(SdfLayout::Tree) {
             // A unit of a tree is smaller: what f32 cannot place may fit a lattice.
-            true => match self.tree(of_lattice, watch.part(0.2, 0.7)) {
+            true => match self.tree(width, watch.part(of_lattice, 1.0)) {
                 Err(BuildError::FieldUnit { .. }) if lattice.is_some() => (None, None),
                 found => found?,
             },
@@ -106,15 +113,15 @@ impl Work<'_> {
             Field { body, report: SdfReport { drafted_widths, ..report } }
         };
         match (tree, lattice) {
-            (Some(tree), _) => Ok(with_widths(tree, of_tree, of_lattice)),
+            (Some(tree), _) => Ok(with_widths(tree, width_of_tree, width)),
             (None, None) => Err(self.too_wide()),
-            (None, Some(lattice)) => match self.proved(lattice, watch.part(0.7, 0.9)) {
+            (None, Some(lattice)) => match self.proved(lattice, watch.part(of_tree, 1.0)) {
                 // The tree has wider intervals, and may have room for them.
-                Err(BuildError::FieldTooWide { .. }) if of_tree.is_some() => {
-                    let (tree, _) = self.tree(None, watch.part(0.9, 1.0))?;
+                Err(BuildError::FieldTooWide { .. }) if width_of_tree.is_some() => {
+                    let (tree, _) = self.tree(None, watch.part(1.0, 1.0))?;
                     tree.ok_or_else(|| self.too_wide())
                 }
-                found => Ok(with_widths(found?.0, of_lattice, of_tree)),
+                found => Ok(with_widths(found?.0, width, width_of_tree)),
             },
         }
     }

@@ -60,6 +60,11 @@ impl Books {
         [0, 1].map(|side| self.books[side][self.cells[cell][side]])
     }
 
+    /// Whether the entries fit 16 bits, as they are stored.
+    pub fn fit(&self) -> bool {
+        self.books.as_flattened().iter().all(|&error| u16::try_from(error).is_ok())
+    }
+
     /// Gives each cell the least entries that hold its errors. The last entries grow where none
     /// does.
     pub fn hold(&mut self, errors: &[[u32; 2]]) {
@@ -83,11 +88,10 @@ pub(super) fn section(
     codes: &Codes,
     books: &Books,
 ) -> Option<Vec<u8>> {
-    let [low, high] = books.books.map(|book| book.map(|error| u16::try_from(error).ok()));
-    if low.contains(&None) || high.contains(&None) {
+    if !books.fit() {
         return None;
     }
-    let [low, high] = [low, high].map(|book| book.map(Option::unwrap_or_default));
+    let [low, high] = books.books.map(|book| book.map(|error| error as u16));
     let header = SdfHeader {
         origin: domain.origin,
         per_unit: domain.per_unit,

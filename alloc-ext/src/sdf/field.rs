@@ -53,8 +53,8 @@ pub struct SdfReport {
     /// of the diagonal from the surface. Of a signed field all samples inside count too, of a solid
     /// one none.
     pub mean_width: f64,
-    /// The same before the proof, and that of the other layout, which was not proved, if both were
-    /// made.
+    /// The same before the proof, and that of the other layout, which was not proved. `None` if one
+    /// layout was asked for, or has no room for its errors.
     pub drafted_widths: Option<[f64; 2]>,
     /// Largest width at those samples. Between them an interval that is cut at 0 may be wider.
     pub largest_width: f64,
@@ -104,7 +104,12 @@ impl Draft<'_> {
         bytes(self.domain.cells)
     }
 
-    /// The mean width of intervals, of the mesh's unit.
+    /// Whether the errors fit the books' numbers. A proof makes them no smaller.
+    pub fn has_room(&self) -> bool {
+        self.books.fit()
+    }
+
+    /// The mean width of intervals, in the mesh's unit.
     pub fn mean_width(&self, kind: SdfKind) -> f64 {
         let [mean, _] = self.widths(kind).found();
         mean / f64::from(self.domain.per_unit)

@@ -217,7 +217,8 @@ impl Facets {
         Self { tree: StaticTree::new(&boxes), all, groups, corners, tree_of_groups }
     }
 
-    /// A unit vector from a group to a point, and the point's height over the group along it.
+    /// A unit vector from a group to a point, shorter only next to the mean of its corners, and the
+    /// point's height over the group along it.
     #[inline]
     fn over_group(&self, group: u32, p: DVec3) -> (DVec3, f64) {
         let Group { middle, corners, .. } = &self.groups[(group & !IS_GROUP) as usize];

@@ -75,7 +75,7 @@ fn the_narrower_layout_is_kept_and_the_other_is_named() {
     let best = build(&mesh, &["--sdf-kind", "solid"]);
     let best_layout = &field(&["--sdf-kind", "solid"])["contents"]["sdf"]["layout"];
     assert_eq!(best_layout, "tree");
-    assert!(best.contains("tree kept: before the proof"), "{best}");
+    assert!(best.contains("tree kept: its mean width before the proof was"), "{best}");
     assert!(best.contains("steps at most") && best.contains("root cells of 65536"), "{best}");
     for layout in ["lattice", "tree"] {
         let one = field(&["--sdf-layout", layout]);

@@ -140,11 +140,13 @@ impl Field {
         Some([value - self.low[errors & 15], value + self.high[errors >> 4] - loss])
     }
 
-    /// The function of a lattice at a point in it, input units: that of a plain grid with the same
-    /// corners.
+    /// The function of a lattice at a point in it, and its cell's errors below and above, input
+    /// units.
     #[must_use]
-    pub fn value(&self, p: [f32; 3]) -> Option<f64> {
-        self.of_lattice(p).map(|(value, _)| value / self.per_unit)
+    pub fn function(&self, p: [f32; 3]) -> Option<(f64, [f64; 2])> {
+        let (value, errors) = self.of_lattice(p)?;
+        let errors = [self.low[errors & 15], self.high[errors >> 4]];
+        Some((value / self.per_unit, errors.map(|error| error / self.per_unit)))
     }
 
     /// The function of a lattice, units, and the cell's byte of errors.

@@ -58,7 +58,7 @@ fn widths_of_a_solid_bracket_are_narrow() {
     assert_eq!(report.layout, SdfLayout::Tree);
     let [drafted, lattice] = report.drafted_widths.expect("both").map(percent);
     let tree = percent(report.mean_width);
-    assert!(drafted < tree, "the proof widens");
+    assert!(drafted <= tree, "no proof makes it narrower");
     assert!(tree < 0.22 && lattice < 0.45, "{tree} % {lattice} %");
 }
 

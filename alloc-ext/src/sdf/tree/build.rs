@@ -253,6 +253,10 @@ impl Maker<'_> {
         let widths: Vec<u32> = asked.iter().map(|coded| coded.width).collect();
         let book: [u32; WIDTHS] = book(&widths, &weights);
         self.check_widths(&leaves, scale, &asked, &book)?;
+        // A proof makes them no smaller.
+        if book[WIDTHS - 1] > u32::from(u16::MAX) {
+            return Err(Failure::NoRoom);
+        }
         Ok(Draft { laid, leaves, scale, asked, weights, book })
     }
 

@@ -1,10 +1,9 @@
 //! Distance fields: errors found and guaranteed beside those of a plain grid of as many bytes,
 //! questions that the field decides alone, and answers that lie outside of the truth.
 //!
-//! *The plain grid* has a byte a corner and one error for all of it, which its worst cell decides.
-//! It is a lattice of the builder without its cells' errors: the corners of about twice the bytes.
-//! The builder moves them so that cells become narrow, and proves them. So the grid is better than
-//! one of rounded distances.
+//! *The plain grid* has a byte a corner and one error for all of it. It is a lattice of the builder,
+//! whose cells' errors are proved, without them: the corners of about twice the bytes. Its error is
+//! the least that holds at all cells with points that count, once its values are shifted.
 //!
 //! *The truth* is the interval of the box tree, whose code is another. Some points are compared
 //! with all triangles in f64.
@@ -41,17 +40,21 @@ const NEAR: f64 = 0.1;
 /// Distances that are asked about, of the diagonal.
 const CLOSER: [f64; 3] = [0.01, 0.02, 0.05];
 
-/// Errors at points, each a part of the diagonal, and verdicts.
-#[derive(Clone, Copy, Debug, Default)]
+/// What points tell. Errors are in input units.
+#[derive(Clone, Debug, Default)]
 struct Found {
-    count: usize,
-    outside: usize,
+    /// Answers and verdicts that are not the truth.
+    wrong: usize,
+    /// Points whose side the tree does not tell: only their lengths are compared.
+    undecided: usize,
     /// Half widths of intervals: what the field guarantees of the middle.
     guaranteed: Errors,
     /// How far the middle is from the truth.
     found: Errors,
-    /// The same of the function of a plain grid.
-    of_grid: Errors,
+    /// The truth less the plain grid's function.
+    of_grid: Vec<f64>,
+    /// The largest errors below and above of the grid's cells.
+    grid_errors: [f64; 2],
     /// Verdicts about distances, and those that are decided.
     asked: usize,
     decided: [usize; 3],
@@ -84,43 +87,62 @@ impl Errors {
 }
 
 impl Found {
-    fn join(self, other: Self) -> Self {
+    fn join(mut self, other: Self) -> Self {
+        self.of_grid.extend(other.of_grid);
         Self {
-            count: self.count + other.count,
-            outside: self.outside + other.outside,
+            wrong: self.wrong + other.wrong,
+            undecided: self.undecided + other.undecided,
             guaranteed: self.guaranteed.join(other.guaranteed),
             found: self.found.join(other.found),
-            of_grid: self.of_grid.join(other.of_grid),
+            of_grid: self.of_grid,
+            grid_errors: [0, 1].map(|k| self.grid_errors[k].max(other.grid_errors[k])),
             asked: self.asked + other.asked,
             decided: std::array::from_fn(|k| self.decided[k] + other.decided[k]),
         }
+    }
+
+    /// The error that the plain grid guarantees, and those found, once its values are shifted so
+    /// that as much is allowed below as above.
+    fn grid(&self) -> (f64, Errors) {
+        let [low, high] = self.grid_errors;
+        let shift = 0.5 * (high - low);
+        let mut found = Errors::default();
+        self.of_grid.iter().for_each(|over| found.add((over - shift).abs()));
+        (0.5 * (low + high), found)
     }
 }
 
 /// A field, a grid of as many bytes, and the tree that tells the truth.
 struct Asked<'a> {
     field: Sdf<'a>,
-    grid: Field,
+    /// Of a field with sides.
+    grid: Option<Field>,
     tree: Bvh<'a>,
     brute: &'a Brute,
     diagonal: f64,
 }
 
 impl Asked<'_> {
-    /// The truth at a point: its signed distance as the tree knows it.
-    fn truth(&self, p: [f32; 3], scratch: &mut [ScratchEntry]) -> Result<Interval, String> {
-        let words = |error: QueryError| error.to_string();
+    /// The truth at a point as the tree knows it: its distance, negative inside. `None` if the tree
+    /// tells no side; then the bounds of the length.
+    fn truth(
+        &self,
+        p: [f32; 3],
+        scratch: &mut [ScratchEntry],
+    ) -> Result<(Option<[f64; 2]>, [f64; 2]), QueryError> {
+        let of = |distance: Interval| [distance.lower, distance.upper].map(f64::from);
         if self.field.kind() == SdfKind::Surface {
-            let found = self.tree.closest_point(p, Budget::EXACT, scratch).map_err(words)?;
-            return Ok(found.distance);
+            let length = of(self.tree.closest_point(p, Budget::EXACT, scratch)?.distance);
+            return Ok((Some(length), length));
         }
-        let found = self.tree.signed_distance(p, Budget::EXACT, scratch).map_err(words)?;
-        let Interval { lower, upper } = found.closest.distance;
-        Ok(match found.side {
-            Side::Outside => Interval::new(lower, upper),
-            Side::Inside => Interval::new(-upper, -lower),
-            _ => Interval::new(-upper, upper),
-        })
+        let found = self.tree.signed_distance(p, Budget::EXACT, scratch)?;
+        let [lower, upper] = of(found.closest.distance);
+        let signed = match found.side {
+            Side::Outside => Some([lower, upper]),
+            Side::Inside => Some([-upper, -lower]),
+            _ => None,
+        };
+        Ok((signed, [lower, upper]))
     }
 
     fn ask(
@@ -128,37 +150,47 @@ impl Asked<'_> {
         p: [f32; 3],
         to_brute: bool,
         scratch: &mut [ScratchEntry],
-    ) -> Result<Found, String> {
-        let mut found = Found { count: 1, ..Found::default() };
-        let answer = self.field.distance(p).map_err(|error| error.to_string())?;
-        let [lower, upper] = [answer.distance.lower, answer.distance.upper].map(f64::from);
-        let truth = self.truth(p, scratch)?;
-        let [least, most] = [truth.lower, truth.upper].map(f64::from);
-        found.outside += usize::from(lower > most || upper < least);
+    ) -> Result<Found, QueryError> {
+        let mut found = Found::default();
+        let answer = self.field.distance(p)?.distance;
+        let [lower, upper] = [answer.lower, answer.upper].map(f64::from);
+        let misses = |[least, most]: [f64; 2]| lower > most || upper < least;
+        let misses_length = |[least, most]: [f64; 2]| {
+            misses([least, most])
+                && (self.field.kind() == SdfKind::Surface || misses([-most, -least]))
+        };
+        let (signed, length) = self.truth(p, scratch)?;
+        found.wrong += usize::from(signed.map_or_else(|| misses_length(length), misses));
         if to_brute {
             let length = self.brute.distance(p);
-            // Brute force has no sign.
-            let holds = |of: f64| lower <= of * (1.0 + 1e-12) && of * (1.0 - 1e-12) <= upper;
-            let holds_inside = self.field.kind() == SdfKind::Signed
-                && lower <= -length * (1.0 - 1e-12)
-                && -length * (1.0 + 1e-12) <= upper;
-            found.outside += usize::from(!holds(length) && !holds_inside);
+            found.wrong +=
+                usize::from(misses_length([length * (1.0 - 1e-12), length * (1.0 + 1e-12)]));
         }
+        let Some([least, most]) = signed else {
+            found.undecided = 1;
+            return Ok(found);
+        };
         if least > NEAR * self.diagonal {
             return Ok(found);
         }
         let middle = 0.5 * (least + most);
         found.guaranteed.add(0.5 * (upper - lower));
         found.found.add((0.5 * (upper + lower) - middle).abs());
-        if let Some(value) = self.grid.value(p) {
-            found.of_grid.add((value - middle).abs());
+        if let Some((value, errors)) = self.grid.as_ref().and_then(|grid| grid.function(p)) {
+            found.of_grid.push(middle - value);
+            found.grid_errors = errors;
         }
         if least > 0.0 {
             found.asked += 1;
             for (decided, part) in found.decided.iter_mut().zip(CLOSER) {
-                let verdict = self.field.within(p, (part * self.diagonal) as f32);
-                let verdict = verdict.map_err(|error| error.to_string())?;
-                *decided += usize::from(!matches!(verdict, Verdict::Undecided(_)));
+                let distance = (part * self.diagonal) as f32;
+                let (is_decided, is_wrong) = match self.field.within(p, distance)? {
+                    Verdict::Yes => (true, least > f64::from(distance)),
+                    Verdict::No => (true, most <= f64::from(distance)),
+                    _ => (false, false),
+                };
+                *decided += usize::from(is_decided);
+                found.wrong += usize::from(is_wrong);
             }
         }
         Ok(found)
@@ -176,7 +208,8 @@ impl Asked<'_> {
             for number in 0..AT_ONCE.min(count - block * AT_ONCE) {
                 let p = rng.point_in(low, high);
                 let to_brute = block == 0 && number < BRUTE;
-                all = all.join(self.ask(p, to_brute, &mut scratch)?);
+                let found = self.ask(p, to_brute, &mut scratch);
+                all = all.join(found.map_err(|error| error.to_string())?);
             }
             Ok(all)
         };
@@ -208,11 +241,16 @@ pub fn tables(subject: &Subject, queries: usize) -> Result<Vec<Table>, String> {
     let built = tree::Built::new(subject, &TreeOptions::default().with_f32(true));
     let brute = Brute::new(subject);
     let diagonal = subject.diagonal();
+    let mut undecided = 0;
     for bytes in BYTES {
         let (blob, report) = field(subject, bytes, None)?;
-        let (grid, grid_report) = plain_grid(subject, bytes)?;
         let opened = Blob::open(&blob).map_err(|error| error.to_string())?;
         let field = opened.sdf().map_err(|error| error.to_string())?;
+        let grid = match field.kind() {
+            SdfKind::Signed => Some(plain_grid(subject, bytes)?),
+            _ => None,
+        };
+        let corners = grid.as_ref().map(corners);
         let asked = Asked { field, grid, tree: built.open()?, brute: &brute, diagonal };
         let found = asked.all(queries)?;
         let [mean, most] = found.guaranteed.cells(diagonal);
@@ -229,32 +267,31 @@ pub fn tables(subject: &Subject, queries: usize) -> Result<Vec<Table>, String> {
             one,
             two,
             five,
-            found.outside
+            found.wrong
         ]);
-        let corners: usize = grid_report.cells.iter().map(|cells| cells + 1).product();
-        let [mean_found, most_found] = found.of_grid.cells(diagonal);
-        let guaranteed = fixed(100.0 * grid_report.largest_error / diagonal, 3);
-        table.push(row![
-            corners,
-            "plain grid",
-            guaranteed.clone(),
-            guaranteed,
-            mean_found,
-            most_found,
-            Cell::Empty,
-            Cell::Empty,
-            Cell::Empty,
-            Cell::Empty
-        ]);
-        if found.outside > 0 {
-            return Err(format!("{} answers of {bytes} bytes are wrong", found.outside));
+        if let Some(corners) = corners {
+            let (guaranteed, errors) = found.grid();
+            let guaranteed = fixed(100.0 * guaranteed / diagonal, 3);
+            let [mean_found, most_found] = errors.cells(diagonal);
+            let mut cells =
+                row![corners, "plain grid", guaranteed.clone(), guaranteed, mean_found, most_found];
+            cells.resize(columns.len(), Cell::Empty);
+            table.push(cells);
+        }
+        undecided = undecided.max(found.undecided);
+        if found.wrong > 0 {
+            return Err(format!("{} answers of {bytes} bytes are wrong", found.wrong));
+        }
+        if 100 * found.undecided > queries {
+            return Err(format!("the tree tells no side of {} points", found.undecided));
         }
     }
     table.note(format!(
-        "{queries} points in the box of the field; errors at those inside and up to a tenth of \
-         the diagonal outside, of the middle of the interval; decided: whether the surface is \
-         within a part of the diagonal, by the field alone, outside up to a tenth; wrong: answers \
-         that do not hold the box tree's, and {BRUTE} of them those of all triangles in f64"
+        "{queries} points in the box of the field; errors at those inside and up to a tenth of the \
+         diagonal outside, of the middle of the interval; decided: whether the surface is within a \
+         part of the diagonal, by the field alone, outside up to a tenth; wrong: intervals that \
+         miss the box tree's, verdicts that it refutes, and of the first {BRUTE} intervals those \
+         without the distance from all triangles in f64; the tree tells no side of {undecided}"
     ));
     Ok(vec![table])
 }
@@ -272,14 +309,18 @@ fn field(
     Ok((sections.to_bytes(), report))
 }
 
-/// The lattice with the most corners that are no more than so many bytes.
-fn plain_grid(subject: &Subject, bytes: u32) -> Result<(Field, SdfReport), String> {
+fn corners(grid: &Field) -> usize {
+    grid.cells.iter().map(|cells| cells + 1).product()
+}
+
+/// A lattice with about as many corners as bytes, and no more.
+fn plain_grid(subject: &Subject, bytes: u32) -> Result<Field, String> {
     let mut of_lattice = 2 * bytes;
     loop {
-        let (blob, report) = field(subject, of_lattice, Some(SdfLayout::Lattice))?;
-        let corners: usize = report.cells.iter().map(|cells| cells + 1).product();
-        if corners <= bytes as usize {
-            return Ok((Field::of(&blob), report));
+        let (blob, _) = field(subject, of_lattice, Some(SdfLayout::Lattice))?;
+        let grid = Field::of(&blob);
+        if corners(&grid) <= bytes as usize {
+            return Ok(grid);
         }
         of_lattice -= of_lattice / 32;
     }
