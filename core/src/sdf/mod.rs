@@ -5,8 +5,8 @@
 //! one today has no bound of its error, or one bound for all of it, and then the worst cell
 //! decides: a cell at a sharp edge or in a thin wall. Here each cell has an error of its own below
 //! and one above. Both are in one byte: two numbers of four bits, each into a book of sixteen
-//! errors. Beside a plain grid of as many bytes the mean interval is 15 times narrower about the
-//! bracket and 7 times about the torus, at 16 KiB (`cargo xtask measure --field`).
+//! errors. Beside a plain grid of as many bytes the mean interval is 11 times narrower about the
+//! bracket and 3.7 times about the torus, at 16 KiB (`cargo xtask measure --field`).
 //!
 //! *Why a tree.* On machined parts the distance is a plane over long boxes and bends at few places.
 //! A node halves any of the three axes at once, so its children are cubes, plates or rods. A leaf
