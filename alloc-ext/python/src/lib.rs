@@ -3,6 +3,7 @@
 
 mod build;
 mod error;
+mod hausdorff;
 mod hulls;
 mod mesh;
 mod model;
@@ -25,6 +26,8 @@ mod _meshsweep {
     use crate::build::{build, words_of_for};
     #[pymodule_export]
     use crate::error::{BlobError, BuildError, MeshsweepError, NotServedError, QueryError};
+    #[pymodule_export]
+    use crate::hausdorff::hausdorff;
     #[pymodule_export]
     use crate::model::Model;
     #[pymodule_export]

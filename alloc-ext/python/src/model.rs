@@ -42,7 +42,8 @@ impl Model {
         Self::of(built.into_bytes(), report)
     }
 
-    fn of(bytes: Vec<u8>, report: Vec<(&'static str, String)>) -> PyResult<Self> {
+    /// The model of a blob's bytes.
+    pub fn of(bytes: Vec<u8>, report: Vec<(&'static str, String)>) -> PyResult<Self> {
         let opened = Opened::try_new(bytes, |bytes| Blob::open(bytes)).map_err(of_open)?;
         Ok(Self { opened, report })
     }

@@ -26,8 +26,21 @@ fn entries(structure: &Distances<'_>) -> usize {
 
 #[pymethods]
 impl Model {
-    fn closest_point<'py>(&self, asked: Asked<'py>, limits: Limits) -> PyResult<Records<'py>> {
-        let (structure, budget) = (self.distances(false)?, budget(limits));
+    /// With `is_precise` by the box tree alone, its candidates measured in f64.
+    fn closest_point<'py>(
+        &self,
+        asked: Asked<'py>,
+        limits: Limits,
+        is_precise: bool,
+    ) -> PyResult<Records<'py>> {
+        let budget = budget(limits);
+        if is_precise {
+            let tree = self.tree("closest")?;
+            return asked.each(tree.scratch_entries(), |point, scratch| {
+                tree.closest_point_precise(point, budget, scratch).map(Closest::from)
+            });
+        }
+        let structure = self.distances(false)?;
         let Distances::Tree(tree) = structure else {
             return asked.each(entries(&structure), |point, scratch| {
                 structure.closest_point(point, budget, scratch)

@@ -22,7 +22,8 @@ float32 to see none.
 """
 
 from ._build import build
-from ._hulls import TightHull
+from ._hausdorff import Hausdorff, hausdorff
+from ._hulls import RefinedHull, TightHull
 from ._meshsweep import BlobError, BuildError, MeshsweepError, NotServedError, QueryError
 from ._model import Model, load
 from ._opened import Note
@@ -41,6 +42,7 @@ __all__ = [
     "Ended",
     "Facing",
     "Finding",
+    "Hausdorff",
     "Instructions",
     "MeshsweepError",
     "Model",
@@ -48,6 +50,7 @@ __all__ = [
     "Note",
     "Proof",
     "QueryError",
+    "RefinedHull",
     "Relation",
     "Side",
     "TightHull",
@@ -56,6 +59,7 @@ __all__ = [
     "Triboxes",
     "Verdict",
     "build",
+    "hausdorff",
     "load",
     "trade",
     "verify",

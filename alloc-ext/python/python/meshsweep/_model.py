@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 
+from ._arrays import whole
 from ._hulls import Hulls
 from ._pairs import Pairs
 from ._points import Points
@@ -14,6 +15,24 @@ from ._triboxes import TriboxQuestions
 
 class Model(Points, Segments, Solids, Pairs, TriboxQuestions, Hulls):
     """An opened blob, which answers questions. Safe to share between threads, and to pickle."""
+
+    def cut(
+        self,
+        *,
+        level: int | None = None,
+        triboxes: int | None = None,
+        tight: int | None = None,
+    ) -> Model:
+        """A coarser model of fewer bytes, for firmware: `meshsweep cut`. It has an empty report.
+
+        `level` is the finest level of the hull hierarchy to keep, 0 the coarsest; key frames are
+        left out then, and so is the box tree. Of `triboxes` the finest level of at most so many
+        stays, of `tight` hulls those of at most so many faces; of both at least the coarsest. What
+        has no number stays as it is. Raises `BuildError` if there is nothing of the kind, or no
+        such level.
+        """
+        parts = whole(level, "level"), whole(triboxes, "triboxes"), whole(tight, "tight")
+        return Model(self._model.cut(*parts))
 
 
 def load(file: str | os.PathLike[str]) -> Model:

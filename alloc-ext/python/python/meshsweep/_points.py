@@ -28,6 +28,7 @@ class Points(Opened):
         rel: SupportsFloat = 0.0,
         abs: SupportsFloat = 0.0,
         steps: int | None = None,
+        precise: bool = False,
     ) -> Records:
         """The distance of each point from the surface, and a point of the surface.
 
@@ -39,10 +40,19 @@ class Points(Opened):
 
         A search ends once the interval is narrower than `rel` of the distance or than `abs`, or
         after so many `steps`: the interval is wider then, and holds.
+
+        With `precise` the triangles that may be the closest are measured in double precision. The
+        interval is then some rounding of single precision wide at each end, and wider by
+        `surface_error`: build with `vertex_bits=32`, or that hides the gain. Give float32, or the
+        interval is wider by the rounding of the points. It needs a box tree for "closest", takes
+        no `rel` and no `abs`, and costs a second search.
         """
+        how = limits(rel, abs, steps)
+        if precise and any(how[:2]):
+            raise QueryError("precise: it takes no rel and no abs, only steps")
         dtype = _records.CLOSEST_ON_CURVE if self._facts["is_curve"] else _records.CLOSEST
         near, moved = self._points(points)
-        found = ask(self._model.closest_point, dtype, near, limits(rel, abs, steps))
+        found = ask(self._model.closest_point, dtype, near, how, precise)
         return widened(found, moved)
 
     def signed_distance(self, points: ArrayLike, *, steps: int | None = None) -> Records:

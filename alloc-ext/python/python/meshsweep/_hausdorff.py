@@ -1,0 +1,109 @@
+"""How far two meshes are from each other."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, SupportsFloat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _meshsweep
+from ._arrays import checked
+from ._mesh import Mesh, given
+from ._meshsweep import BuildError
+
+
+class Hausdorff(NamedTuple):
+    """Bounds of a Hausdorff distance. Lengths are in the meshes' unit."""
+
+    lower: float
+    upper: float
+    """`lower` ≤ distance ≤ `upper`, in real arithmetic, between the meshes as they were given."""
+    point_a: NDArray[np.float64] | None
+    """Shape (3,): one of the two points that attain `lower`, but for rounding; `a` has it."""
+    point_b: NDArray[np.float64] | None
+    """Shape (3,): the other one, on `b`. `None`, as the next three, if no point is known to be
+    apart from the other mesh."""
+    triangle_a: int | None
+    """Number of the triangle of `point_a` in its mesh as given."""
+    triangle_b: int | None
+    is_backward: bool | None
+    """Whether `point_b` is the farthest point and `point_a` the closest one to it; else the
+    opposite."""
+    ended: str
+    """ "precision" if the bounds are as close as asked for; "rounding" if rounding allows no
+    closer ones; "pieces" if the search was given up."""
+    pieces: int
+    """Pieces of triangles that were bounded."""
+    holds: bool | None
+    """Whether the distance is at most `at_most`; `None` if that is undecided, or was not asked."""
+    unit: str | None
+    rounding: tuple[float, float]
+    """How far the rounding to single precision moved vertices of `a`, and of `b`. The bounds
+    include it."""
+    doubts: list[str]
+    """What is doubtful or was left out of the files."""
+
+
+def hausdorff(
+    a: Mesh,
+    b: Mesh,
+    *,
+    one_sided: bool = False,
+    rel: SupportsFloat = 1e-4,
+    abs: SupportsFloat = 0.0,
+    at_most: SupportsFloat | None = None,
+    unit: str | None = None,
+) -> Hausdorff:
+    """Bounds how far the farthest point of either mesh is from the other: `meshsweep hausdorff`.
+
+    `a`, `b` and `unit` are as `mesh` and `unit` of `build`. Meshes may be open, and are surfaces: a
+    point inside the other one is apart from it. With `one_sided` only points of `a` count, and the
+    distance is that of the farthest of them from `b`.
+
+    The search ends once `upper` ≤ `lower` · (1 + `rel`), or `upper` - `lower` ≤ `abs`. With
+    `at_most` it ends, in place of both, once it is known whether the distance is at most that.
+    Vertices are rounded to single precision, and the bounds include that: they come no closer than
+    `rounding`, and some 1e-11 of the largest coordinate.
+
+    Cost: a box tree of each mesh, a query of each vertex, and more of pieces of triangles: most for
+    meshes that are equally far apart everywhere. Raises `BuildError` that names `a` or `b` if it is
+    refused, or if they have different units. Runs without the interpreter's lock. Ctrl-C ends the
+    call; threads that build a tree may work on for a while.
+    """
+    precision = (
+        checked(rel, "rel"),
+        checked(abs, "abs"),
+        None if at_most is None else checked(at_most, "at_most"),
+    )
+    found = _meshsweep.hausdorff((_named(a, "a"), _named(b, "b")), one_sided, precision, unit)
+    end_a, end_b = found["ends"] or (None, None)
+    return Hausdorff(
+        lower=found["lower"],
+        upper=found["upper"],
+        point_a=None if end_a is None else np.array(end_a[0]),
+        point_b=None if end_b is None else np.array(end_b[0]),
+        triangle_a=None if end_a is None else end_a[1],
+        triangle_b=None if end_b is None else end_b[1],
+        is_backward=found["is_backward"],
+        ended=found["ended"],
+        pieces=found["pieces"],
+        holds=_holds(found["lower"], found["upper"], precision[2]),
+        unit=found["unit"],
+        rounding=(found["rounding"][0], found["rounding"][1]),
+        doubts=found["doubts"],
+    )
+
+
+def _named(mesh: Any, name: str) -> Any:
+    """What was given, or a refusal that names it."""
+    try:
+        return given(mesh)
+    except BuildError as error:
+        raise BuildError(f"{name}: {error}") from None
+
+
+def _holds(lower: float, upper: float, at_most: float | None) -> bool | None:
+    if at_most is None or lower <= at_most < upper:
+        return None
+    return upper <= at_most
