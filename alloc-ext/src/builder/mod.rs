@@ -123,8 +123,8 @@ impl<'a> Builder<'a> {
         /// What the distances of a field mean. Default: signed if the mesh is closed and has
         /// sides, else [`SdfKind::Surface`].
         sdf_kind: SdfKind => options.sdf_kind,
-        /// How a field lies in its bytes. Default: in the layout of the smaller mean width, as it
-        /// is before the proof; with an error in the one of fewer bytes.
+        /// How a field lies in its bytes. Default: in the layout of the smaller mean width, or of
+        /// one that is nearly as small; with an error in the one of fewer bytes.
         sdf_layout: SdfLayout => options.sdf_layout,
         /// Distance about the mesh's box that a field covers, in the mesh's unit. Default: a tenth
         /// of the box's diagonal.

@@ -1,9 +1,9 @@
 //! The build of a field: which one is kept.
 
 use super::domain::Domain;
-use super::field::{Draft, Field, SdfReport, Work};
+use super::field::{Field, SdfReport, Work};
 use super::options::SdfOptions;
-use super::tree::{self, Beside};
+use super::tree;
 use crate::bvh::FileSides;
 use crate::clock::Instant;
 use crate::emit::Sections;
@@ -79,73 +79,104 @@ pub fn build(
     Ok((header, report))
 }
 
+/// A field before its proof.
+struct Candidate<'a> {
+    /// The mean width of its intervals, in the mesh's unit. No proof makes it smaller.
+    width: f64,
+    /// `None` if the errors do not fit their numbers.
+    prove: Box<dyn FnOnce(Watch<'_>) -> Result<Option<Field>, BuildError> + 'a>,
+}
+
+/// A field that is no wider than this times another before its proof is taken without that proof.
+const ENOUGH: f64 = 1.05;
+
 impl Work<'_> {
-    /// The field of the smaller mean width. Both layouts are drafted and one is proved: a proof
-    /// takes half of the time, and widens few cells.
+    /// The field of the smaller mean width, or of one that is nearly as small.
     fn narrowest(&self, watch: Watch<'_>) -> Result<Field, BuildError> {
         let is_wanted = |layout| self.options.layout.is_none_or(|wanted| wanted == layout);
         let bytes = self.options.bytes;
         if self.options.layout == Some(SdfLayout::Tree) && bytes < LEAST_OF_TREE {
             return Err(BuildError::FieldTooSmall { bytes, least: LEAST_OF_TREE });
         }
-        // Of the time: lattice's draft, tree's draft, the proof of one.
-        let [of_lattice, of_tree] = match self.options.layout {
-            Some(SdfLayout::Lattice) => [0.4, 0.4],
-            Some(SdfLayout::Tree) => [0.0, 1.0],
-            _ => [0.2, 0.7],
+        // Of the time: the lattice's draft.
+        let drafted = match self.options.layout {
+            Some(SdfLayout::Lattice) => 0.4,
+            Some(SdfLayout::Tree) => 0.0,
+            _ => 0.2,
         };
-        let lattice = match is_wanted(SdfLayout::Lattice) {
-            true => Some(self.draft(bytes as usize, watch.part(0.0, of_lattice))?),
+        let mut lattice = match is_wanted(SdfLayout::Lattice) {
+            true => self.candidate(watch.part(0.0, drafted))?,
             false => None,
         };
-        let lattice = lattice.filter(Draft::has_room);
-        let width = lattice.as_ref().map(|draft| draft.mean_width(self.kind));
-        let (tree, width_of_tree) = match is_wanted(SdfLayout::Tree) {
+        let watch = watch.part(drafted, 1.0);
+        if !is_wanted(SdfLayout::Tree) {
+            return self.narrower(lattice, None, watch);
+        }
+        let mut with_tree = || {
+            let most_bytes = bytes as usize;
+            let domain = Domain::of_tree(&self.surface, self.options.margin, most_bytes)?;
+            self.with_maker(&domain, watch, |maker, watch| {
+                let made = tree::leaves(maker, most_bytes, watch.part(0.0, 0.65))?;
+                let watch = watch.part(0.65, 1.0);
+                let Some((laid, made)) = made else {
+                    return self.narrower(lattice.take(), None, watch);
+                };
+                let draft = maker.draft(laid, made.iter().collect()).ok();
+                let tree = draft.map(|draft| Candidate {
+                    width: maker.mean_width(&draft) / f64::from(domain.per_unit),
+                    prove: Box::new(|watch| {
+                        let tree = maker.proved(draft, watch)?.ok();
+                        Ok(tree.map(|tree| self.of_tree(&domain, tree)))
+                    }),
+                });
+                self.narrower(lattice.take(), tree, watch)
+            })
+        };
+        match with_tree() {
             // A unit of a tree is smaller: what f32 cannot place may fit a lattice.
-            true => match self.tree(width, watch.part(of_lattice, 1.0)) {
-                Err(BuildError::FieldUnit { .. }) if lattice.is_some() => (None, None),
-                found => found?,
-            },
-            false => (None, None),
-        };
-        let with_widths = |Field { body, report }: Field, kept: Option<f64>, other: Option<f64>| {
-            let drafted_widths = kept.zip(other).map(|(kept, other)| [kept, other]);
-            Field { body, report: SdfReport { drafted_widths, ..report } }
-        };
-        match (tree, lattice) {
-            (Some(tree), _) => Ok(with_widths(tree, width_of_tree, width)),
-            (None, None) => Err(self.too_wide()),
-            (None, Some(lattice)) => match self.proved(lattice, watch.part(of_tree, 1.0)) {
-                // The tree has wider intervals, and may have room for them.
-                Err(BuildError::FieldTooWide { .. }) if width_of_tree.is_some() => {
-                    let (tree, _) = self.tree(None, watch.part(1.0, 1.0))?;
-                    tree.ok_or_else(|| self.too_wide())
-                }
-                found => Ok(with_widths(found?.0, width, width_of_tree)),
-            },
+            Err(BuildError::FieldUnit { .. }) if lattice.is_some() => {
+                self.narrower(lattice, None, watch)
+            }
+            found => found,
         }
     }
 
-    /// A tree, unless it has intervals of a mean width that is no less than another field's, before
-    /// the proof of either; `None` if it does not fit the numbers of a tree. Also that width.
-    fn tree(
+    /// A lattice before its proof; `None` if its errors do not fit their numbers.
+    fn candidate(&self, watch: Watch<'_>) -> Result<Option<Candidate<'_>>, BuildError> {
+        let draft = self.draft(self.options.bytes as usize, watch)?;
+        Ok(draft.has_room().then(|| Candidate {
+            width: draft.mean_width(self.kind),
+            prove: Box::new(|watch| match self.proved(draft, watch) {
+                Err(BuildError::FieldTooWide { .. }) => Ok(None),
+                found => Ok(Some(found?.0)),
+            }),
+        }))
+    }
+
+    /// Proves the narrower of two; the other too, if that may be narrower by more than a little.
+    fn narrower(
         &self,
-        other: Option<f64>,
+        lattice: Option<Candidate<'_>>,
+        tree: Option<Candidate<'_>>,
         watch: Watch<'_>,
-    ) -> Result<(Option<Field>, Option<f64>), BuildError> {
-        let most_bytes = self.options.bytes as usize;
-        let domain = Domain::of_tree(&self.surface, self.options.margin, most_bytes)?;
-        let per_unit = f64::from(domain.per_unit);
-        let other = other.map(|other| other * per_unit);
-        let found = self.with_maker(&domain, watch, |maker, watch| {
-            tree::build(maker, most_bytes, other, watch)
-        })?;
-        Ok(match found {
-            Beside::Tree { tree, drafted } => {
-                (Some(self.of_tree(&domain, tree)), Some(drafted / per_unit))
+    ) -> Result<Field, BuildError> {
+        let mut all: Vec<Candidate<'_>> = [lattice, tree].into_iter().flatten().collect();
+        all.sort_by(|a, b| a.width.total_cmp(&b.width));
+        let widths: Vec<f64> = all.iter().map(|candidate| candidate.width).collect();
+        let mut best: Option<Field> = None;
+        for (number, Candidate { width, prove }) in all.into_iter().enumerate() {
+            let wide = best.as_ref().map_or(f64::INFINITY, |field| field.report.mean_width);
+            if wide <= ENOUGH * width {
+                break;
             }
-            Beside::Wider(drafted) => (None, Some(drafted / per_unit)),
-            Beside::NoRoom => (None, None),
-        })
+            let part = |number: usize| number as f64 / widths.len() as f64;
+            let found = prove(watch.part(part(number), part(number + 1)))?;
+            if let Some(Field { body, report }) = found.filter(|of| of.report.mean_width < wide) {
+                let other = widths.get(1 - number).copied();
+                let drafted_widths = other.map(|other| [width, other]);
+                best = Some(Field { body, report: SdfReport { drafted_widths, ..report } });
+            }
+        }
+        best.ok_or_else(|| self.too_wide())
     }
 }

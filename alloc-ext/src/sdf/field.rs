@@ -53,8 +53,8 @@ pub struct SdfReport {
     /// of the diagonal from the surface. Of a signed field all samples inside count too, of a solid
     /// one none.
     pub mean_width: f64,
-    /// The same before the proof, and that of the other layout, which was not proved. `None` if one
-    /// layout was asked for, or has no room for its errors.
+    /// The same before the proof, and that of the other layout before a proof. `None` if one layout
+    /// was asked for, or one has no room for its errors.
     pub drafted_widths: Option<[f64; 2]>,
     /// Largest width at those samples. Between them an interval that is cut at 0 may be wider.
     pub largest_width: f64,

@@ -25,8 +25,8 @@ pub struct SdfOptions {
     pub margin: Option<f64>,
     /// What distances mean. `None`: signed if the mesh is closed and has sides, else surface.
     pub kind: Option<SdfKind>,
-    /// How the field lies in its bytes. `None`: in the layout of the smaller mean width, as it is
-    /// before the proof; with an error in the one of fewer bytes.
+    /// How the field lies in its bytes. `None`: in the layout of the smaller mean width, or of one
+    /// that is nearly as small; with an error in the one of fewer bytes.
     pub layout: Option<SdfLayout>,
 }
 

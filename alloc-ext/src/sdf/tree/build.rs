@@ -52,7 +52,7 @@ pub(in crate::sdf) struct Tree {
 }
 
 /// A leaf in progress.
-pub(super) struct Made {
+pub(in crate::sdf) struct Made {
     of: Box3,
     samples: Vec<Sample>,
     /// Steps between them along each side.
@@ -109,7 +109,7 @@ pub(in crate::sdf) struct Maker<'a> {
 }
 
 /// Why leaves make no tree.
-pub(super) enum Failure {
+pub(in crate::sdf) enum Failure {
     /// These take more than 1 of the allowed width: so much.
     TooWide(Vec<(usize, f64)>),
     /// The field does not fit the numbers of a tree.
@@ -117,7 +117,7 @@ pub(super) enum Failure {
 }
 
 /// Leaves with codes and widths that samples need, before their proof.
-struct Draft<'a> {
+pub(in crate::sdf) struct Draft<'a> {
     laid: Laid,
     leaves: Vec<&'a Made>,
     scale: Scale,
@@ -126,45 +126,23 @@ struct Draft<'a> {
     book: [u32; WIDTHS],
 }
 
-/// What came of a tree beside another field.
-pub(in crate::sdf) enum Beside {
-    Tree {
-        tree: Tree,
-        /// The mean width before the proof, units.
-        drafted: f64,
-    },
-    /// Its mean width would be this, which is no less than the other's, units.
-    Wider(f64),
-    /// The field does not fit the numbers of a tree.
-    NoRoom,
-}
-
-/// Builds a tree, unless another field has intervals of a mean width that is no more, before the
-/// proof of either.
-pub(in crate::sdf) fn build(
+/// The leaves of the best partition into so many bytes; `None` of a field that does not fit the
+/// numbers of a tree.
+pub(in crate::sdf) fn leaves(
     maker: &Maker<'_>,
     most_bytes: usize,
-    other: Option<f64>,
     watch: Watch<'_>,
-) -> Result<Beside, BuildError> {
+) -> Result<Option<(Laid, Vec<Made>)>, BuildError> {
     let Maker { truth, domain, .. } = *maker;
     let most_entries = most_entries(most_bytes);
     if domain.cell_count() > most_entries {
-        return Ok(Beside::NoRoom);
+        return Ok(None);
     }
-    let choices = search(truth, domain, most_entries, watch.part(0.0, 0.5))?;
-    let Some(laid) = entries(domain, &choices) else { return Ok(Beside::NoRoom) };
+    let choices = search(truth, domain, most_entries, watch.part(0.0, 0.75))?;
+    let Some(laid) = entries(domain, &choices) else { return Ok(None) };
     let made =
-        watch.part(0.5, 0.65).map(laid.leaves.len(), |leaf| maker.made(laid.leaves[leaf].1))?;
-    let Ok(draft) = maker.draft(laid, made.iter().collect()) else { return Ok(Beside::NoRoom) };
-    let [drafted, _] = maker.widths(&draft, draft.scale, &draft.asked, &draft.book).found();
-    if other.is_some_and(|other| drafted >= other) {
-        return Ok(Beside::Wider(drafted));
-    }
-    Ok(match maker.proved(draft, watch.part(0.65, 1.0))? {
-        Ok(tree) => Beside::Tree { tree, drafted },
-        Err(_) => Beside::NoRoom,
-    })
+        watch.part(0.75, 1.0).map(laid.leaves.len(), |leaf| maker.made(laid.leaves[leaf].1))?;
+    Ok(Some((laid, made)))
 }
 
 /// Entries of a tree of so many bytes.
@@ -236,7 +214,11 @@ impl Maker<'_> {
     }
 
     /// Codes and a book as the samples of leaves need them.
-    fn draft<'a>(&self, laid: Laid, leaves: Vec<&'a Made>) -> Result<Draft<'a>, Failure> {
+    pub(in crate::sdf) fn draft<'a>(
+        &self,
+        laid: Laid,
+        leaves: Vec<&'a Made>,
+    ) -> Result<Draft<'a>, Failure> {
         let (off, slack, near) = (self.off, self.slack(), NEAR * self.domain.diagonal);
         let offsets: Vec<f64> = leaves.iter().map(|leaf| leaf.offset(off, slack)).collect();
         let scale = Scale::of(offsets.iter().copied()).ok_or(Failure::NoRoom)?;
@@ -306,8 +288,14 @@ impl Maker<'_> {
         found
     }
 
+    /// The mean width of a draft's intervals, units.
+    pub(in crate::sdf) fn mean_width(&self, draft: &Draft<'_>) -> f64 {
+        let [mean, _] = self.widths(draft, draft.scale, &draft.asked, &draft.book).found();
+        mean
+    }
+
     /// The tree of a draft: its leaves are proved, and widened where the proof needs it.
-    fn proved(
+    pub(in crate::sdf) fn proved(
         &self,
         draft: Draft<'_>,
         watch: Watch<'_>,

@@ -26,5 +26,5 @@ mod narrow;
 mod partition;
 mod search;
 
-pub(super) use build::{Beside, Maker, Tree, build};
+pub(super) use build::{Maker, Tree, leaves};
 pub(super) use narrow::{Narrow, build as narrow};

@@ -61,13 +61,13 @@ pub(super) fn search(
 }
 
 /// A tree without its leaves' functions.
-pub(super) struct Laid {
+pub(in crate::sdf) struct Laid {
     /// Nodes as they stand, and leaves to be filled.
-    pub entries: Vec<[u8; ENTRY_BYTES]>,
+    pub(super) entries: Vec<[u8; ENTRY_BYTES]>,
     /// Numbers of the entries that are leaves, with their boxes.
-    pub leaves: Vec<(usize, Box3)>,
+    pub(super) leaves: Vec<(usize, Box3)>,
     /// The most entries that a question reads.
-    pub steps: u8,
+    pub(super) steps: u8,
 }
 
 /// The entries of the partition; `None` if a child is too far from its node.

@@ -119,7 +119,7 @@ pub struct BuildArgs {
     pub sdf_kind: Option<SdfKind>,
     /// How the field lies in its bytes: lattice or tree
     ///
-    /// By default the one whose intervals are narrower in mean, as they are before the proof.
+    /// By default the one whose intervals are narrower in mean, or nearly so.
     #[arg(
         long,
         value_name = "LAYOUT",
