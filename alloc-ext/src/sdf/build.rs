@@ -83,9 +83,11 @@ pub fn build(
 struct Candidate<'a> {
     /// The mean width of its intervals, in the mesh's unit. No proof makes it smaller.
     width: f64,
-    /// `None` if the errors do not fit their numbers.
-    prove: Box<dyn FnOnce(Watch<'_>) -> Result<Option<Field>, BuildError> + 'a>,
+    prove: Prove<'a>,
 }
+
+/// Proves a field; `None` if the errors do not fit their numbers.
+type Prove<'a> = Box<dyn FnOnce(Watch<'_>) -> Result<Option<Field>, BuildError> + 'a>;
 
 /// A field that is no wider than this times another before its proof is taken without that proof.
 const ENOUGH: f64 = 1.05;
