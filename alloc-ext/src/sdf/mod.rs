@@ -28,9 +28,9 @@
 //! entry that holds what it needs. Nothing relies on samples.
 //!
 //! *One proof.* Both layouts are drafted, and the narrower is proved: a proof takes about half of
-//! the time. It widens the mean, in small fields by much. So the other is proved too if its draft is
-//! narrower by more than a twentieth. With this and with groups of triangles (`region`), a field of
-//! 16 KiB of the horse takes 0.55 of the processors' time that it took (*historical*).
+//! the time. It widens the mean, in small fields by much. So the other is proved too if its draft
+//! is narrower by more than a twentieth. With this and with groups of triangles (`region`), a field
+//! of 16 KiB of the horse takes 0.55 of the processors' time that it took (*historical*).
 //!
 //! *Rounding.* All is computed in a frame whose unit is the field's. Lengths are below 2^20 there,
 //! so one margin (`region::MARGIN`) in that unit is enough for every mesh.

@@ -42,8 +42,8 @@ enum Part {
 
 impl Options {
     /// `[--tree | --triboxes | --deform | --overlap | --field [--queries COUNT] | --tight
-    /// [--firmware] | --paper TABLE [--firmware] | --margins TRIALS] [MESH…]`; `None` if that is not
-    /// what the words are.
+    /// [--firmware] | --paper TABLE [--firmware] | --margins TRIALS] [MESH…]`; `None` if that is
+    /// not what the words are.
     pub fn parse(words: &[&str]) -> Option<Self> {
         let mut options = Self::default();
         let mut words = words.iter();

@@ -20,7 +20,7 @@ class Note(NamedTuple):
 
 
 class Opened:
-    """An opened blob. Its questions are in the classes that inherit it, and `Model` has them all."""
+    """An opened blob. Its questions are in the classes that inherit it; `Model` has them all."""
 
     def __init__(self, blob: bytes | bytearray | memoryview | _meshsweep.Model) -> None:
         """Opens the bytes of a blob. Every byte is checked: raises `BlobError`."""

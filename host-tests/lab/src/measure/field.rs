@@ -1,9 +1,9 @@
 //! Distance fields: errors found and guaranteed beside those of a plain grid of as many bytes,
 //! questions that the field decides alone, and answers that lie outside of the truth.
 //!
-//! *The plain grid* has a byte a corner and one error for all of it. It is a lattice of the builder,
-//! whose cells' errors are proved, without them: the corners of about twice the bytes. Its error is
-//! the least that holds at all cells with points that count, once its values are shifted.
+//! *The plain grid* has a byte a corner and one error for all of it. It is a lattice of the
+//! builder, whose cells' errors are proved, without them: the corners of about twice the bytes. Its
+//! error is the least that holds at all cells with points that count, once its values are shifted.
 //!
 //! *The truth* is the interval of the box tree, whose code is another. Some points are compared
 //! with all triangles in f64.
