@@ -175,7 +175,7 @@ pub enum BuildError {
         error: f64,
         /// Most bytes of the field.
         bytes: u32,
-        /// Bytes that it takes, about.
+        /// Bytes that it takes at least, as far as the search went.
         needed: usize,
     },
     /// A field of this layout takes more bytes.
@@ -373,8 +373,8 @@ impl fmt::Display for BuildError {
             ),
             Self::FieldNeedsBytes { error, bytes, needed } => write!(
                 f,
-                "a field with intervals of at most {} everywhere takes about {needed} bytes, more \
-                 than {bytes}: ask for a larger --sdf-error or --sdf-rel, for less --sdf-margin, \
+                "a field with intervals of at most {} everywhere takes {needed} bytes or more, not \
+                 {bytes}: ask for a larger --sdf-error or --sdf-rel, for less --sdf-margin, \
                  or for more --sdf bytes where their range has more",
                 Typed(*error)
             ),

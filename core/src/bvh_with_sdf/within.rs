@@ -1,12 +1,12 @@
 //! Whether the surface is within a distance of a point.
 
 use super::pair::BvhWithSdf;
-use crate::query::{Budget, Decided, Interval, QueryError, ScratchEntry, Verdict, Work};
+use crate::query::{Budget, Decided, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work};
+use crate::sdf::Near;
 
 impl BvhWithSdf<'_> {
     /// Whether the input mesh is at most `distance` from `point`, both in input units. See
-    /// [`Bvh::within`](crate::Bvh::within), which answers where the field's interval holds
-    /// `distance`.
+    /// [`Bvh::within`](crate::Bvh::within), which answers where the field does not tell it.
     ///
     /// The field proves no single triangle: a `Yes` of the field has no witness. The work of the
     /// field is 0: `work.opened` tells whether the tree was asked.
@@ -29,14 +29,24 @@ impl BvhWithSdf<'_> {
     ) -> Result<Decided<u32>, QueryError> {
         budget.check_about(distance, scratch)?;
         self.check_distances()?;
+        let told = self.field().told(point, distance, Near::Surface);
+        let verdict = told.unwrap_or_else(|| self.told_from_beyond(point, distance));
+        if matches!(verdict, Verdict::Undecided(_)) {
+            return self.tree().within(point, distance, budget, scratch);
+        }
+        Ok(Decided { verdict, witness: None, work: Work::NONE })
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn told_from_beyond(&self, point: [f32; 3], distance: f32) -> Verdict {
         let Interval { lower, upper } = self.known(point);
-        let verdict = if lower > distance {
+        if lower > distance {
             Verdict::No
         } else if upper <= distance {
             Verdict::Yes
         } else {
-            return self.tree().within(point, distance, budget, scratch);
-        };
-        Ok(Decided { verdict, witness: None, work: Work::NONE })
+            Verdict::Undecided(Undecided::Resolution)
+        }
     }
 }

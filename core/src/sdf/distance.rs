@@ -4,7 +4,7 @@ use super::format::{Sdf, SdfKind, SdfLayout};
 use super::units::UnitDistance;
 use super::value::SLOPE_BITS;
 use crate::num::{each, greater, lesser, sqrt_approx};
-use crate::query::{Interval, QueryError, Side, Undecided, Verdict};
+use crate::query::{Interval, QueryError, Side, Undecided};
 
 /// Bounds of the distance of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,35 +142,6 @@ impl Sdf<'_> {
         };
         let found = self.answer(self.outside_field(bounds_beyond(bounds, beyond)));
         Ok((found, away(beyond, far as f32, as_gradient(gradient))))
-    }
-
-    /// Whether the surface is at most `distance` from `point`, both in input units. Of a field of
-    /// kind [`Solid`](SdfKind::Solid) whether the solid is: a point inside is never `No`. Of the
-    /// others a point deep inside is `No`, for the sign is not looked at: a guard takes a field of
-    /// kind solid.
-    ///
-    /// Undecided for [`Resolution`](Undecided::Resolution) if the interval of
-    /// [`distance`](Self::distance) holds lengths on both sides of `distance`, without their sign.
-    /// For collision avoidance, treat undecided as `Yes`.
-    ///
-    /// Cost: that of [`distance`](Self::distance).
-    ///
-    /// # Errors
-    /// Those of [`distance`](Self::distance); [`QueryError::Tolerance`] if `distance` is negative,
-    /// NaN or infinite.
-    #[inline(never)]
-    pub fn within(&self, point: [f32; 3], distance: f32) -> Result<Verdict, QueryError> {
-        if !(distance >= 0.0 && distance.is_finite()) {
-            return Err(QueryError::Tolerance);
-        }
-        let Interval { lower, upper } = self.distance(point)?.distance;
-        Ok(if lower > distance || upper < -distance {
-            Verdict::No
-        } else if upper <= distance && lower >= -distance {
-            Verdict::Yes
-        } else {
-            Verdict::Undecided(Undecided::Resolution)
-        })
     }
 
     /// Bounds of the distance in input units, from those at the nearest place. `Sdf::open` made

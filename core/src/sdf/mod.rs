@@ -49,6 +49,7 @@
 //! | `value` | the interval at a place of a lattice, in integers, and the gradient |
 //! | `tree` | the same of a tree |
 //! | `distance` | the questions in input units |
+//! | `within` | whether the surface is within a distance |
 //! | `units` | the questions in whole units, for processors without floating point |
 
 mod distance;
@@ -57,7 +58,9 @@ mod place;
 mod tree;
 mod units;
 mod value;
+mod within;
 
 pub use distance::FieldDistance;
 pub use format::{Sdf, SdfKind, SdfLayout};
 pub use units::UnitDistance;
+pub(crate) use within::Near;

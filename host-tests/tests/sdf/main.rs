@@ -10,3 +10,4 @@ mod truth;
 mod width;
 mod with_tree;
 mod with_tree_moving;
+mod within;

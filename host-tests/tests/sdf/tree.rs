@@ -80,7 +80,7 @@ impl Leaf {
     }
 }
 
-fn trees() -> impl Iterator<Item = (Vec<u8>, u64)> {
+pub fn trees() -> impl Iterator<Item = (Vec<u8>, u64)> {
     let shapes = [([1, 1, 1], 0), ([1, 2, 3], 30), ([4, 3, 2], 800), ([7, 1, 7], 5000)];
     (0..).zip(shapes).flat_map(|(k, (roots, leaves))| {
         SdfKind::ALL.into_iter().map(move |kind| {

@@ -1,5 +1,8 @@
 //! The function of a box, from samples: a plane by least squares, then the curvature across it,
-//! both rounded as they are stored. Then steps of one number at a time, while the box gets cheaper.
+//! both rounded as they are stored. Then steps of one number at a time, while the box gets cheaper,
+//! and where none helps steps of two: at the narrowest functions both ends of the interval are held
+//! by several samples. The second save 1.3 % of the mean width of the bracket's 16 KiB, and 1.4 %
+//! of the bytes for a width (*historical*).
 
 use super::grid::Batch;
 use super::leaf::{Shape, UNIT};
@@ -12,6 +15,38 @@ const FEWEST: usize = 12;
 
 /// Most rounds of steps.
 const ROUNDS: usize = 8;
+
+/// Steps of one stored number.
+const STEPS_OF_ONE: [[i32; 4]; 8] = [
+    [-1, 0, 0, 0],
+    [1, 0, 0, 0],
+    [0, -1, 0, 0],
+    [0, 1, 0, 0],
+    [0, 0, -1, 0],
+    [0, 0, 1, 0],
+    [0, 0, 0, -1],
+    [0, 0, 0, 1],
+];
+
+/// Steps of two.
+const STEPS_OF_TWO: [[i32; 4]; 24] = {
+    let mut all = [[0; 4]; 24];
+    let (mut a, mut at) = (0, 0);
+    while a < 4 {
+        let mut b = a + 1;
+        while b < 4 {
+            let mut signs = 0;
+            while signs < 4 {
+                all[at][a] = 2 * (signs % 2) - 1;
+                all[at][b] = 2 * (signs / 2) - 1;
+                (at, signs) = (at + 1, signs + 1);
+            }
+            b += 1;
+        }
+        a += 1;
+    }
+    all
+};
 
 /// A fitted function, and what it needs.
 #[derive(Clone, Copy, Debug, Default)]
@@ -68,29 +103,39 @@ impl Fitter {
         // The function itself costs nothing where nothing is asked.
         for _ in 0..ROUNDS {
             let before = best.cost;
-            for number in 0..4 {
-                for by in [-1, 1] {
-                    let mut shape = best.shape;
-                    let moved = match number {
-                        3 => &mut shape.curvature,
-                        axis => &mut shape.gradient[axis],
-                    };
-                    *moved += by;
-                    if moved.abs() > ONE {
-                        continue;
-                    }
-                    let found = self.measure(batch, half, shape, is_cut);
-                    if found.cost < best.cost {
-                        best = found;
-                        break;
-                    }
-                }
+            for step in &STEPS_OF_ONE {
+                best = self.stepped(batch, half, is_cut, best, step);
             }
             if best.cost >= before * 0.999 {
-                break;
+                let stalled = best.cost;
+                for step in &STEPS_OF_TWO {
+                    best = self.stepped(batch, half, is_cut, best, step);
+                }
+                if best.cost >= stalled * 0.999 {
+                    break;
+                }
             }
         }
         best
+    }
+
+    /// The better of a function and of one that is a step away.
+    fn stepped(
+        &mut self,
+        batch: &Batch,
+        half: DVec3,
+        is_cut: bool,
+        from: Fitted,
+        &[a, b, c, bend]: &[i32; 4],
+    ) -> Fitted {
+        let [x, y, z] = from.shape.gradient;
+        let shape =
+            Shape { gradient: [x + a, y + b, z + c], curvature: from.shape.curvature + bend };
+        if shape.gradient.iter().chain([&shape.curvature]).any(|number| number.abs() > ONE) {
+            return from;
+        }
+        let found = self.measure(batch, half, shape, is_cut);
+        if found.cost < from.cost { found } else { from }
     }
 
     /// The function's values at the samples, with 0 at the centre.
