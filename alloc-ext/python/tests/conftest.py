@@ -1,5 +1,7 @@
-"""Meshes and an oracle that shares no code with the package: f64, each triangle of each point."""
+"""Meshes, and oracles that share no code with the package: f64, each triangle of each point; and
+exact signs."""
 
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -58,3 +60,17 @@ def distances(points, vertices, triangles):
         foot = start + np.clip(t, 0, 1)[..., None] * edge
         nearest = np.minimum(nearest, np.linalg.norm(p - foot, axis=2))
     return np.where(is_over, np.abs(height), nearest)
+
+
+def orientation(a, b, c, d):
+    """The sign of the volume of a tetrahedron, exact. Coordinates are fractions or floats."""
+    a, b, c, d = (
+        [x if isinstance(x, Fraction) else Fraction(float(x)) for x in p] for p in (a, b, c, d)
+    )
+    u, v, w = ([x - y for x, y in zip(p, d, strict=True)] for p in (a, b, c))
+    volume = (
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+        - u[1] * (v[0] * w[2] - v[2] * w[0])
+        + u[2] * (v[0] * w[1] - v[1] * w[0])
+    )
+    return (volume > 0) - (volume < 0)

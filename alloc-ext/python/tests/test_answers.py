@@ -1,11 +1,9 @@
 """Every interval contains the truth, and no verdict is wrong."""
 
-from fractions import Fraction
-
 import meshsweep
 import numpy as np
 import pytest
-from conftest import distances, sphere
+from conftest import distances, orientation, sphere
 from meshsweep import Side, Verdict
 
 SCALES = [1.0, 1e-30, 1e30]
@@ -110,18 +108,6 @@ def test_segments_through_the_middle_hit_twice_and_those_beside_are_clear():
     rays = part.first_hit_of_ray(2 * way, way)
     assert (rays.verdict == Verdict.NO).all()
     assert (part.first_hit_of_ray(2 * way, -way).verdict != Verdict.NO).all()
-
-
-def orientation(a, b, c, d):
-    """The sign of the volume of a tetrahedron, exact."""
-    a, b, c, d = ([Fraction(float(x)) for x in p] for p in (a, b, c, d))
-    u, v, w = ([x - y for x, y in zip(p, d, strict=True)] for p in (a, b, c))
-    volume = (
-        u[0] * (v[1] * w[2] - v[2] * w[1])
-        - u[1] * (v[0] * w[2] - v[2] * w[0])
-        + u[2] * (v[0] * w[1] - v[1] * w[0])
-    )
-    return (volume > 0) - (volume < 0)
 
 
 def test_a_list_without_a_triangle_that_is_hit_is_not_complete():

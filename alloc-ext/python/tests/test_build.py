@@ -298,3 +298,11 @@ def test_the_lines_of_the_readme_run(tmp_path, monkeypatch, fixtures):
     monkeypatch.chdir(tmp_path)
     exec(compile(lines.replace("1_000_000", "10_000"), "README.md", "exec"), {})  # noqa: S102
     assert (tmp_path / "link.msw").stat().st_size > 1000
+
+
+def test_the_lines_of_the_first_readme_run(monkeypatch, fixtures, capsys):
+    text = (fixtures.parent / "README.md").read_text()
+    lines = text.split("```python\n")[1].split("```")[0]
+    monkeypatch.chdir(fixtures.parent)
+    exec(compile(lines.replace("1_000_000", "10_000"), "README.md", "exec"), {})  # noqa: S102
+    assert 10 < float(capsys.readouterr().out) < 100

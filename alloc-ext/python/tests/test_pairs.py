@@ -5,7 +5,7 @@ from fractions import Fraction
 import meshsweep
 import numpy as np
 import pytest
-from conftest import distances, sphere
+from conftest import distances, orientation, sphere
 from meshsweep import Relation, Verdict
 
 
@@ -19,24 +19,13 @@ def poses_at(places):
     return poses
 
 
-def sign(a, b, c, d):
-    """The orientation of a tetrahedron, exact."""
-    u, v, w = ([x - y for x, y in zip(p, d, strict=True)] for p in (a, b, c))
-    volume = (
-        u[0] * (v[1] * w[2] - v[2] * w[1])
-        - u[1] * (v[0] * w[2] - v[2] * w[0])
-        + u[2] * (v[0] * w[1] - v[1] * w[0])
-    )
-    return (volume > 0) - (volume < 0)
-
-
 def crosses(first, second):
     """Whether an edge of one triangle passes properly through the other: exact."""
     for one, other in [(first, second), (second, first)]:
         for k in range(3):
             p, q = one[k], one[(k + 1) % 3]
-            if sign(*other, p) * sign(*other, q) < 0:
-                around = {sign(p, q, other[i], other[(i + 1) % 3]) for i in range(3)}
+            if orientation(*other, p) * orientation(*other, q) < 0:
+                around = {orientation(p, q, other[i], other[(i + 1) % 3]) for i in range(3)}
                 if len(around) == 1 and 0 not in around:
                     return True
     return False

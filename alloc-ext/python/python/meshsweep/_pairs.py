@@ -81,8 +81,8 @@ class Pairs(Opened):
         Fields: `relation` (a `Relation`); `lower` and `upper` of the penetration depth, which is
         the length of the shortest translation after which no point is inside both; `apart`, a
         translation of the other, in place of that of the pose, at which they are proved to be
-        apart: at most `upper` away, NaN if none was found; `deepest`, the point that proves `lower`,
-        or NaN; `ended`; `work`. Searches may miss the best, and the interval holds all the same.
+        apart: at most `upper` away, NaN if none was found; `deepest`, the point that proves
+        `lower`, or NaN; `ended`; `work`. Searches may miss the best, and the interval holds all the same.
         Solids that only touch, and meshes that are not closed, are `UNDECIDED`.
         """
         how = other_of(other), limits(rel, abs, steps)

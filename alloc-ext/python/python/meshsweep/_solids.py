@@ -26,8 +26,8 @@ class Solids(Opened):
     """Questions about convex solids.
 
     A solid is all points within a radius of the hull of its 1 to 32 corners: one corner is a ball,
-    two are a capsule, eight a box. Only the surface of the mesh counts: a solid inside may be clear.
-    All need "segment" among the words of `for_`. Corners are rounded to single precision, and the
+    two are a capsule, eight a box. Only the surface of the mesh counts: a solid inside may be
+    clear. All need "segment" among the words of `for_`. Corners are rounded to single precision, and the
     answers include that.
     """
 
