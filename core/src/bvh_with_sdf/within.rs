@@ -1,8 +1,11 @@
 //! Whether the surface is within a distance of a point.
 
-use super::pair::BvhWithSdf;
+use super::pair::{BvhWithSdf, UNKNOWN};
 use crate::query::{Budget, Decided, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work};
 use crate::sdf::Near;
+
+/// The field does not decide.
+const OPEN: Verdict = Verdict::Undecided(Undecided::Resolution);
 
 impl BvhWithSdf<'_> {
     /// Whether the input mesh is at most `distance` from `point`, both in input units. See
@@ -29,8 +32,11 @@ impl BvhWithSdf<'_> {
     ) -> Result<Decided<u32>, QueryError> {
         budget.check_about(distance, scratch)?;
         self.check_distances()?;
-        let told = self.field().told(point, distance, Near::Surface);
-        let verdict = told.unwrap_or_else(|| self.told_from_beyond(point, distance));
+        let verdict = match self.field().within_field(point) {
+            // Of a field that was not checked nothing is known.
+            Some(place) => self.field().told(&place, distance, Near::Surface).unwrap_or(OPEN),
+            None => self.told_from_beyond(point, distance),
+        };
         if matches!(verdict, Verdict::Undecided(_)) {
             return self.tree().within(point, distance, budget, scratch);
         }
@@ -40,13 +46,15 @@ impl BvhWithSdf<'_> {
     #[cold]
     #[inline(never)]
     fn told_from_beyond(&self, point: [f32; 3], distance: f32) -> Verdict {
-        let Interval { lower, upper } = self.known(point);
+        let found = self.field().distance_beyond(point);
+        let Interval { lower, upper } =
+            found.map_or(UNKNOWN, |found| self.surface_interval(&found));
         if lower > distance {
             Verdict::No
         } else if upper <= distance {
             Verdict::Yes
         } else {
-            Verdict::Undecided(Undecided::Resolution)
+            OPEN
         }
     }
 }

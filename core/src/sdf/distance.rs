@@ -77,7 +77,7 @@ impl Sdf<'_> {
 
     #[cold]
     #[inline(never)]
-    fn distance_beyond(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
+    pub(crate) fn distance_beyond(&self, point: [f32; 3]) -> Result<FieldDistance, QueryError> {
         let (place, beyond) = self.beyond(point)?;
         let bounds = match self.layout {
             SdfLayout::Lattice => self.value(place)?,

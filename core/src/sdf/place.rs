@@ -19,7 +19,7 @@ impl Sdf<'_> {
     /// sixteenth for rounding. A difference and a product lose at most two parts in 2^24 of fewer
     /// than 2^19 units. `None` of a point outside, and of -0 units.
     #[inline(always)]
-    pub(super) fn within_field(&self, point: [f32; 3]) -> Option<[u32; 3]> {
+    pub(crate) fn within_field(&self, point: [f32; 3]) -> Option<[u32; 3]> {
         let units @ [x, y, z] = self.unrounded(point);
         // The bits of numbers that are not negative rise with the numbers. Those of negative ones
         // and of NaN are above those of any number.

@@ -2,11 +2,15 @@
 //! units, and the bounds of a look-up never become f32.
 
 use super::format::{Sdf, SdfKind, SdfLayout};
+use crate::num::lesser;
 use crate::query::{Interval, QueryError, Undecided, Verdict};
 
-/// From this many units on, the bounds are compared in f32. Fewer are rounded by at most a quarter
-/// of a unit: the unit and a product lose less than 2^-22 of them.
-const MOST_ASKED: f32 = (1u32 << 20) as f32;
+/// Longer distances are asked about as this one, units: no bound of a field is as large.
+const MOST_ASKED: i32 = 1 << 30;
+
+/// Units of a distance, as a power of 2, that may be off by one more: the unit and a product lose
+/// less than 2^-22 of them.
+const OFF_BITS: u32 = 20;
 
 /// What must be within the distance.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -37,23 +41,17 @@ impl Sdf<'_> {
         if !(distance >= 0.0 && distance.is_finite()) {
             return Err(QueryError::Tolerance);
         }
-        match self.told(point, distance, Near::Any) {
-            Some(verdict) => Ok(verdict),
+        match self.within_field(point) {
+            Some(place) => self.told(&place, distance, Near::Any).ok_or(QueryError::Unchecked),
             None => self.within_from_beyond(point, distance),
         }
     }
 
-    /// Whether the surface is within a distance, as the field tells it; `None` of a point beyond
-    /// the field, or one that is not finite, and of a distance of very many units. The distance is
-    /// finite and not negative.
+    /// Whether the surface is within a distance of a place, as the field tells it. The distance is
+    /// finite and not negative. `None` only of bytes that were not checked.
     #[inline(never)]
-    pub(crate) fn told(&self, point: [f32; 3], distance: f32, near: Near) -> Option<Verdict> {
-        let place = self.within_field(point)?;
-        let asked = distance * self.per_unit;
-        if asked >= MOST_ASKED {
-            return None;
-        }
-        let asked = asked as i32;
+    pub(crate) fn told(&self, &place: &[u32; 3], distance: f32, near: Near) -> Option<Verdict> {
+        let asked = lesser((distance * self.per_unit) as i32, MOST_ASKED);
         let bounds = match self.layout {
             SdfLayout::Lattice => self.value(place),
             SdfLayout::Tree => self.tree_bounds(self.root_within(place), place),
@@ -62,10 +60,12 @@ impl Sdf<'_> {
     }
 
     /// Compares bounds of the nearest place, which are a unit off, with a distance whose whole
-    /// units are `asked`.
+    /// units are `asked`. It lies between one unit below and two above, for it is rounded twice.
     #[inline(always)]
     fn decided(&self, [lower, upper]: [i32; 2], asked: i32, near: Near) -> Verdict {
-        let (below, above) = (asked.wrapping_sub(1), asked.wrapping_add(2));
+        let off = asked >> OFF_BITS;
+        let (below, above) =
+            (asked.wrapping_sub(1).wrapping_sub(off), asked.wrapping_add(2).wrapping_add(off));
         let is_solid = near == Near::Surface && self.kind == SdfKind::Solid;
         let least = if is_solid { 1 } else { below.wrapping_neg() };
         if lower > above || upper < above.wrapping_neg() {
@@ -80,7 +80,7 @@ impl Sdf<'_> {
     #[cold]
     #[inline(never)]
     fn within_from_beyond(&self, point: [f32; 3], distance: f32) -> Result<Verdict, QueryError> {
-        let Interval { lower, upper } = self.distance(point)?.distance;
+        let Interval { lower, upper } = self.distance_beyond(point)?.distance;
         Ok(if lower > distance || upper < -distance {
             Verdict::No
         } else if upper <= distance && lower >= -distance {

@@ -35,8 +35,8 @@ fn a_verdict_is_that_of_the_interval_and_open_only_near_its_ends() {
             let distance = match rng.below(4) {
                 0 => least + near_an_end,
                 1 => most + near_an_end,
-                // Of very many units: no longer compared as integers.
-                2 => f64::from(rng.range(0.5, 4.0)) * unit * f64::from(1 << 20),
+                // Of very many units.
+                2 => unit * f64::from(rng.range(18.0, 33.0).exp2()),
                 _ => f64::from(rng.range(0.0, 2.0)) * most,
             };
             let asked = distance.max(0.0) as f32;
@@ -51,7 +51,9 @@ fn a_verdict_is_that_of_the_interval_and_open_only_near_its_ends() {
                     told[0] += 1;
                 }
                 Verdict::Undecided(_) => {
-                    let (least, most) = (least - OPEN * unit, most + OPEN * unit);
+                    // A long distance is rounded.
+                    let room = OPEN * unit + distance / f64::from(1 << 18);
+                    let (least, most) = (least - room, most + room);
                     assert!(least <= distance && most >= distance, "{point:?} {asked} {found:?}");
                     open += 1;
                 }

@@ -60,7 +60,8 @@ class Opened:
         """Shape (2, 3): a box that holds the input mesh, its vertices included.
 
         It is the box of what is stored, `surface_error` larger, and rounded outward; of a blob with
-        a field alone the field's box. Raises `NotServedError` if the blob has nothing that knows it.
+        a field alone the field's box. Raises `NotServedError` if the blob has nothing that knows
+        it.
         """
         bounds = self._facts["bounds"]
         if bounds is None:

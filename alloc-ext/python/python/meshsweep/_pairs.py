@@ -82,7 +82,8 @@ class Pairs(Opened):
         the length of the shortest translation after which no point is inside both; `apart`, a
         translation of the other, in place of that of the pose, at which they are proved to be
         apart: at most `upper` away, NaN if none was found; `deepest`, the point that proves
-        `lower`, or NaN; `ended`; `work`. Searches may miss the best, and the interval holds all the same.
+        `lower`, or NaN; `ended`; `work`. Searches may miss the best, and the interval holds all
+        the same.
         Solids that only touch, and meshes that are not closed, are `UNDECIDED`.
         """
         how = other_of(other), limits(rel, abs, steps)

@@ -27,8 +27,8 @@ class Solids(Opened):
 
     A solid is all points within a radius of the hull of its 1 to 32 corners: one corner is a ball,
     two are a capsule, eight a box. Only the surface of the mesh counts: a solid inside may be
-    clear. All need "segment" among the words of `for_`. Corners are rounded to single precision, and the
-    answers include that.
+    clear. All need "segment" among the words of `for_`. Corners are rounded to single precision,
+    and the answers include that.
     """
 
     def solid_distance(
