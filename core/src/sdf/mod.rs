@@ -15,7 +15,8 @@
 //!
 //! *Cost of a tree.* An entry that a look-up reads takes 20 instructions of a Cortex-M4F. Mean and
 //! most at random points of the field, by
-//! `cargo xtask count --board "field field.msw" "units field.msw"`:
+//! `cargo xtask count --board "field field.msw" "units field.msw"` (*historical*: of an older
+//! builder's trees):
 //!
 //! | field | entries, mean | M4F: f32 | M4F: units | M0: f32 | M0: units |
 //! | --- | --- | --- | --- | --- | --- |
