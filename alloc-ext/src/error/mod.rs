@@ -175,7 +175,7 @@ pub enum BuildError {
         error: f64,
         /// Most bytes of the field.
         bytes: u32,
-        /// Bytes that it takes at least, as far as the search went.
+        /// Bytes that it takes, about: the search ended there, and more may be needed.
         needed: usize,
     },
     /// A field of this layout takes more bytes.
@@ -373,7 +373,7 @@ impl fmt::Display for BuildError {
             ),
             Self::FieldNeedsBytes { error, bytes, needed } => write!(
                 f,
-                "a field with intervals of at most {} everywhere takes {needed} bytes or more, not \
+                "a field with intervals of at most {} everywhere takes about {needed} bytes or more, not \
                  {bytes}: ask for a larger --sdf-error or --sdf-rel, for less --sdf-margin, \
                  or for more --sdf bytes where their range has more",
                 Typed(*error)

@@ -979,7 +979,8 @@ int32_t msw_sdf_distance_and_gradient(const msw_sdf *field, const float point[3]
 
 /* Whether the surface is at most `distance` from `point`; of a field of kind solid whether the solid
  * is, so that a point inside is never MSW_NO. Of the other kinds a point deep inside is. Undecided
- * if the interval has lengths on both sides of `distance`: treat it as MSW_YES.
+ * if the interval has lengths on both sides of `distance`, or ends within two units of it: treat it
+ * as MSW_YES.
  * MSW_ERROR_TOLERANCE: the distance is negative, NaN or infinite. */
 int32_t msw_sdf_within(const msw_sdf *field, const float point[3], float distance,
                        msw_verdict_answer *answer);
@@ -1007,8 +1008,9 @@ int32_t msw_open_both(msw_both *both, const void *bytes, size_t count);
 /* As msw_scratch_entries. */
 uint32_t msw_both_scratch_entries(const msw_both *both);
 
-/* As msw_within. If the field's interval does not hold `distance`, the field answers alone: the
- * work is 0, and MSW_YES has no triangle. Else the tree answers. Only the surface counts. */
+/* As msw_within. If the interval of the field ends more than two units from `distance`, the field
+ * answers alone: the work is 0, and MSW_YES has no triangle. Else the tree answers. Only the surface
+ * counts. */
 int32_t msw_both_within(const msw_both *both, const float point[3], float distance,
                         const msw_budget *budget,
                         msw_scratch_entry *scratch, size_t scratch_count,

@@ -29,9 +29,9 @@ impl Sdf<'_> {
     ///
     /// Undecided for [`Resolution`](Undecided::Resolution) if the interval of
     /// [`distance`](Self::distance) holds lengths on both sides of `distance`, without their sign,
-    /// or ends within two units of it. For collision avoidance, treat undecided as `Yes`.
+    /// or ends within two units and 2^-20 of it. For collision avoidance, treat undecided as `Yes`.
     ///
-    /// Cost: less than that of [`distance`](Self::distance), for the bounds stay integers.
+    /// Cost: about that of [`distance`](Self::distance).
     ///
     /// # Errors
     /// Those of [`distance`](Self::distance); [`QueryError::Tolerance`] if `distance` is negative,

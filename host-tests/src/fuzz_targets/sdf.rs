@@ -3,7 +3,7 @@
 use super::input::Input;
 use super::suite::ask_all;
 use crate::generate::fields;
-use meshsweep_core::{Blob, QueryError, Sdf, SdfKind, Side};
+use meshsweep_core::{Blob, Interval, QueryError, Sdf, SdfKind, Side, Verdict};
 use meshsweep_suite::ask::sdf;
 use std::sync::OnceLock;
 
@@ -59,8 +59,16 @@ fn ask(field: &Sdf<'_>, p: [f32; 3], distance: f32) {
         }
         Err(error) => refused(error),
     }
-    if let Err(error) = field.within(p, distance) {
-        refused(error);
+    match (field.within(p, distance), field.distance(p)) {
+        (Ok(verdict), Ok(found)) => {
+            let Interval { lower, upper } = found.distance;
+            match verdict {
+                Verdict::Yes => assert!(lower.abs() <= distance && upper.abs() <= distance),
+                Verdict::No => assert!(lower > distance || upper < -distance),
+                _ => {}
+            }
+        }
+        (Err(error), _) | (_, Err(error)) => refused(error),
     }
 }
 

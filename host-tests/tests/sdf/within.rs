@@ -3,7 +3,9 @@
 
 use super::kernel::lattices;
 use super::tree::trees;
-use meshsweep_core::{Sdf, Verdict};
+use meshsweep_core::internal::sdf::format::layout::field;
+use meshsweep_core::{Sdf, SectionKind, Verdict};
+use meshsweep_host_tests::corrupt::edited;
 use meshsweep_host_tests::generate::Rng;
 
 /// Units on each side of a length within which a verdict may be open.
@@ -19,10 +21,28 @@ fn place(rng: &mut Rng, field: &Sdf<'_>) -> [f32; 3] {
     })
 }
 
+/// Fields, each also with distances that are few units: those of the others are so many that a
+/// distance asked about is rounded by more than a unit.
+fn all() -> impl Iterator<Item = (Vec<u8>, u64)> {
+    lattices().chain(trees()).flat_map(|(bytes, seed)| {
+        let mut small = None;
+        let base = |section: &mut [u8]| {
+            let base = (Rng::new(seed).below(1 << 12) as i32 - (1 << 11)).to_le_bytes();
+            section[field::BASE..][..4].copy_from_slice(&base);
+        };
+        let kept: Result<(), ()> = edited(bytes.clone(), SectionKind::Sdf, &base, |bytes| {
+            small = Some(bytes.to_vec());
+            Ok(())
+        });
+        assert_eq!(kept, Ok(()));
+        [(bytes, seed), (small.expect("edited"), seed)]
+    })
+}
+
 #[test]
 fn a_verdict_is_that_of_the_interval_and_open_only_near_its_ends() {
     let (mut told, mut open) = ([0; 2], 0);
-    for (bytes, seed) in lattices().chain(trees()) {
+    for (bytes, seed) in all() {
         let (field, mut rng) = (Sdf::open(&bytes).expect("opens"), Rng::new(seed));
         let unit = f64::from(field.unit());
         for _ in 0..500 {

@@ -325,7 +325,8 @@ impl Maker<'_> {
             if proof.is_widened && self.allowed.is_some() {
                 let finer = prove(FINER_OF_WIDTH);
                 let sum = |proof: &Proof| proof.errors.low + proof.errors.high;
-                if sum(&finer) < sum(&proof) { finer } else { proof }
+                let boxes = proof.boxes + finer.boxes;
+                Proof { boxes, ..if sum(&finer) < sum(&proof) { finer } else { proof } }
             } else {
                 proof
             }
