@@ -27,10 +27,10 @@ fn all() -> impl Iterator<Item = (Vec<u8>, u64)> {
     lattices().chain(trees()).flat_map(|(bytes, seed)| {
         let mut small = None;
         let base = |section: &mut [u8]| {
-            let base = (Rng::new(seed).below(1 << 12) as i32 - (1 << 11)).to_le_bytes();
+            let base = (Rng::new(seed).range(-2048.0, 2048.0) as i32).to_le_bytes();
             section[field::BASE..][..4].copy_from_slice(&base);
         };
-        let kept: Result<(), ()> = edited(bytes.clone(), SectionKind::Sdf, &base, |bytes| {
+        let kept: Result<(), ()> = edited(bytes.clone(), SectionKind::Sdf, base, |bytes| {
             small = Some(bytes.to_vec());
             Ok(())
         });
