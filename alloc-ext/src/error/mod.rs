@@ -373,9 +373,9 @@ impl fmt::Display for BuildError {
             ),
             Self::FieldNeedsBytes { error, bytes, needed } => write!(
                 f,
-                "a field with intervals of at most {} everywhere takes about {needed} bytes or more, not \
-                 {bytes}: ask for a larger --sdf-error or --sdf-rel, for less --sdf-margin, \
-                 or for more --sdf bytes where their range has more",
+                "a field with intervals of at most {} everywhere takes about {needed} bytes or \
+                 more, not {bytes}: ask for a larger --sdf-error or --sdf-rel, for less \
+                 --sdf-margin, or for more --sdf bytes where their range has more",
                 Typed(*error)
             ),
             Self::FieldTooSmall { bytes, least } => write!(

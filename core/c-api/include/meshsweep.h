@@ -1009,8 +1009,8 @@ int32_t msw_open_both(msw_both *both, const void *bytes, size_t count);
 uint32_t msw_both_scratch_entries(const msw_both *both);
 
 /* As msw_within. If the interval of the field ends more than two units from `distance`, the field
- * answers alone: the work is 0, and MSW_YES has no triangle. Else the tree answers. Only the surface
- * counts. */
+ * answers alone: the work is 0, and MSW_YES has no triangle. Else the tree answers. Only the
+ * surface counts. */
 int32_t msw_both_within(const msw_both *both, const float point[3], float distance,
                         const msw_budget *budget,
                         msw_scratch_entry *scratch, size_t scratch_count,

@@ -24,9 +24,10 @@
 //! | closest point to 10 % / 1 % / exact | 7,076 / 8,044 / 9,315 | 5,831 / 6,343 / 7,509 |
 //! | distance without a point to 10 % / 1 % | 7,076 / 8,044 | 4,719 / 6,381 |
 //!
-//! *Historical*: since then `within` compares whole units. Of a tree of 16 KiB it takes 489 in place
-//! of 509 at 2 % of the diagonal, and on a Cortex-M0 2,746 in place of 3,450. A second look-up, at a
-//! point towards or away from the surface, would have decided one open question in ten.
+//! *Historical*: since then `within` compares whole units. With a tree of 16 KiB, at 2 % of the
+//! diagonal, it takes 489 in place of 509, and on a Cortex-M0 2,746 in place of 3,450. *Lost*: a
+//! second look-up where the first is open, at a point towards or away from the surface. It decides
+//! one question in ten.
 //!
 //! | file | owns |
 //! | --- | --- |

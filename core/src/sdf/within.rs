@@ -59,8 +59,9 @@ impl Sdf<'_> {
         Some(self.decided(bounds.ok()?, asked, near))
     }
 
-    /// Compares bounds of the nearest place, which are a unit off, with a distance whose whole
-    /// units are `asked`. It lies between one unit below and two above, for it is rounded twice.
+    /// Compares bounds with a distance whose whole units are `asked`. The bounds are those of the
+    /// nearest place: those of the point are a unit wider on each side. The distance is above
+    /// `asked` − `off` − 1 and below `asked` + `off` + 2, with 3/4 of a unit to spare.
     #[inline(always)]
     fn decided(&self, [lower, upper]: [i32; 2], asked: i32, near: Near) -> Verdict {
         let off = asked >> OFF_BITS;
