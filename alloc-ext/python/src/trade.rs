@@ -118,8 +118,7 @@ pub fn choose(py: Python<'_>, wanted: Wanted<'_>, device: Device) -> PyResult<(M
         Question::Within(_) => false,
         _ => !is_fence,
     });
-    // The words of an option are those of Python.
-    let unmet = |unmet: of::Unmet| BuildError::new_err(unmet.to_string().replace("--", ""));
+    let unmet = |unmet: of::Unmet| BuildError::new_err(unmet.to_string());
     let of::Choice { first, second, built, .. } = limits.choose(&trade).map_err(unmet)?;
     let best = best(&trade);
     let (first, second) = (told(&first, &best), second.map(|second| told(&second, &best)));
