@@ -2,7 +2,9 @@
 //! out; `python/meshsweep` gives them names.
 
 mod build;
+mod engine;
 mod error;
+mod frames;
 mod hausdorff;
 mod hulls;
 mod mesh;
@@ -17,6 +19,7 @@ mod solids;
 mod trade;
 mod triboxes;
 mod verify;
+mod views;
 
 use pyo3::prelude::*;
 
@@ -31,7 +34,7 @@ mod _meshsweep {
     #[pymodule_export]
     use crate::model::Model;
     #[pymodule_export]
-    use crate::trade::trade;
+    use crate::trade::{choose, trade};
     #[pymodule_export]
     use crate::verify::verify;
 }

@@ -3,12 +3,14 @@
 use crate::error::QueryError;
 use crate::model::{Model, budget};
 use crate::rows::{Asked, Found, Lists, Records};
-use meshsweep_core::{AllHits, Budget, Facing, TriangleHit};
+use meshsweep_core::{AllHits, Facing, TriangleHit};
 use pyo3::prelude::*;
 
 /// Both points of a row.
-pub fn ends([ax, ay, az, bx, by, bz]: [f32; 6]) -> [[f32; 3]; 2] {
-    [[ax, ay, az], [bx, by, bz]]
+pub fn ends(row: &[f32]) -> [[f32; 3]; 2] {
+    core::array::from_fn(|end| {
+        core::array::from_fn(|k| row.get(3 * end + k).copied().unwrap_or_default())
+    })
 }
 
 fn facing_of(code: u8) -> PyResult<Facing> {
@@ -30,24 +32,18 @@ impl Model {
         steps: Option<u32>,
     ) -> PyResult<Records<'py>> {
         let (facing, budget) = (facing_of(facing)?, budget((0.0, 0.0, steps)));
-        let tree = self.tree("segment")?;
-        asked.each(tree.scratch_entries(), |row, scratch| {
-            let [a, b] = ends(row);
-            match is_ray {
-                true => tree.first_hit_of_ray(a, b, facing, budget, scratch),
-                false => tree.first_hit(a, b, facing, budget, scratch),
-            }
+        let engine = self.engine(facing)?;
+        asked.each(engine.entries(), |row: [f32; 6], scratch| {
+            engine.first_hit(ends(&row), is_ray, facing, budget, scratch)
         })
     }
 
     fn all_hits<'py>(&self, asked: Asked<'py>, is_ray: bool, facing: u8) -> PyResult<Lists<'py>> {
-        let (facing, tree, budget) = (facing_of(facing)?, self.tree("segment")?, Budget::EXACT);
-        asked.lists(tree.scratch_entries(), TriangleHit::EMPTY, |row, room, scratch| {
-            let [a, b] = ends(row);
-            let AllHits { stored, dropped, is_complete, .. } = match is_ray {
-                true => tree.all_hits_of_ray(a, b, facing, room, budget, scratch),
-                false => tree.all_hits(a, b, facing, room, budget, scratch),
-            }?;
+        let facing = facing_of(facing)?;
+        let engine = self.engine(facing)?;
+        asked.lists(engine.entries(), TriangleHit::EMPTY, |row: [f32; 6], room, scratch| {
+            let AllHits { stored, dropped, is_complete, .. } =
+                engine.all_hits(ends(&row), is_ray, facing, room, scratch)?;
             Ok(Found { stored, dropped, is_complete })
         })
     }

@@ -155,8 +155,8 @@ impl Model {
         let (asks, budget) = (self.asks(false)?, budget((0.0, 0.0, steps)));
         let tool = tool.as_slice()?.as_chunks::<3>().0;
         Solid::new(tool, radius as f32).map_err(|error| of_query(None, error))?;
-        asked.each(asks.entries(), |row, scratch| {
-            let [(from, off), (to, off_there)] = ends(row).map(|place| placed(tool, place));
+        asked.each(asks.entries(), |row: [f32; 6], scratch| {
+            let [(from, off), (to, off_there)] = ends(&row).map(|place| placed(tool, place));
             asks.first_contact([&from, &to], radius, off.max(off_there), budget, scratch)
         })
     }

@@ -68,8 +68,8 @@ impl Model {
     /// The parameter before which each segment is clear. Rows have both ends.
     fn tribox_hit<'py>(&self, asked: Asked<'py>, steps: Option<u32>) -> PyResult<Records<'py>> {
         let (triboxes, budget) = (self.stored_triboxes()?, budget((0.0, 0.0, steps)));
-        asked.each(triboxes.scratch_entries(), |row, scratch| {
-            let [a, b] = ends(row);
+        asked.each(triboxes.scratch_entries(), |row: [f32; 6], scratch| {
+            let [a, b] = ends(&row);
             triboxes.clip(a, b, budget, scratch).map(Clipped)
         })
     }

@@ -18,6 +18,11 @@ side by a winding number may change by any motion, so `signed_distance` does not
 that were moved. Segments, rays and poses are rounded, and the answer is about the rounded one: give
 float32 to see none.
 
+**Key frames.** The model of a mesh that deforms, `build(..., "deform", frames=[...])`, is asked
+with `frame`: 1.25 is a quarter of the way from frame 1 to frame 2, and 0 is the mesh at rest.
+Between two frames each vertex moves on a straight line. Frames are rounded to single precision, and
+the answer is about the rounded one.
+
 **Processes.** A model can be pickled. The child of a fork has threads of its own.
 """
 
@@ -29,7 +34,7 @@ from ._model import Model, load
 from ._opened import Note
 from ._records import Ended, Facing, Relation, Side, Verdict
 from ._segments import AllHits
-from ._trade import Instructions, Trade, TradeRow, trade
+from ._trade import Choice, Instructions, Trade, TradeRow, choose, trade
 from ._triboxes import Triboxes
 from ._verify import Finding, Proof, verify
 
@@ -39,6 +44,7 @@ __all__ = [
     "AllHits",
     "BlobError",
     "BuildError",
+    "Choice",
     "Ended",
     "Facing",
     "Finding",
@@ -59,6 +65,7 @@ __all__ = [
     "Triboxes",
     "Verdict",
     "build",
+    "choose",
     "hausdorff",
     "load",
     "trade",

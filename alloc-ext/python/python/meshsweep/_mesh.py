@@ -13,7 +13,8 @@ from ._arrays import numbers
 from ._meshsweep import BuildError
 
 Mesh = str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Any
-Progress = bool | Callable[[str, float], Any] | None
+Tell = Callable[[str, float], Any] | None
+Progress = bool | Tell
 
 
 def given(mesh: Any) -> str | tuple[NDArray[np.float64], NDArray[np.uint32]]:
@@ -49,7 +50,7 @@ class Bar:
         self._progress = progress
         self._bar: Any = None
 
-    def __enter__(self) -> Callable[[str, float], Any] | None:
+    def __enter__(self) -> Tell:
         if self._progress is not True:
             return self._progress or None
         try:
