@@ -68,17 +68,24 @@ for (const [key, shiftKey] of keys) {
 }
 // Fewer nodes, a wider interval.
 by("steps").value = "1";
-const wide = ask();
+const wide = showDistance();
 by("steps").selectedIndex = 0;
-const narrow = ask();
+const narrow = showDistance();
 require(wide.lower <= narrow.lower && wide.upper - wide.lower > 2 * (narrow.upper - narrow.lower),
   "one node gives a wider interval");
+
+const roundings = [[0.12341, true, 3, "0.124"], [0.12349, false, 3, "0.123"], [1000.0001, true, 7,
+  "1000.001"], [9.9996, false, 4, "9.999"], [-0.12341, true, 3, "-0.123"], [0, true, 3, "0"]];
+for (const [x, isUp, digits, text] of roundings) {
+  const found = roundedOutward(x, isUp, digits);
+  if (found !== text) throw new Error(`${x} is rounded to ${found}`);
+}
 
 const answers = given.points.map((point) => {
   const fields = by("place").querySelectorAll("input");
   point.forEach((x, axis) => (fields[axis].value = x));
   by("place").requestSubmit();
-  return ask().bits;
+  return showDistance().bits;
 });
 const blob = packed(state.built.blob);
 
@@ -110,8 +117,8 @@ if (given.isWhole) {
   require(by("failed").hidden, "the refusal is gone");
   by("points").value = 20;
   by("measure").click();
-  await until(() => state.rows, "measured");
-  rows = state.rows.rows.map(({ structure, dials, flash }) => [structure, dials, flash].join("/"));
+  await until(() => state.trade, "measured");
+  rows = state.trade.rows.map(({ structure, dials, flash }) => [structure, dials, flash].join("/"));
   require(by("rows").tBodies[0].rows.length > 3, `${rows.length} rows of a trade`);
   // What is in the pictures.
   await open("part.stl", bytesOf(given.mesh));
