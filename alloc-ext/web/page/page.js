@@ -64,9 +64,13 @@ function open(name, bytes) {
     showTrade();
     redraw();
     await build(file, { serve: ["closest", "segment"] }, true);
-    const faces = [Number(by("faces").value)];
-    await build(file, { serve: ["closest", "segment", "tight"], faces }, false);
+    await buildHull(file);
   });
+}
+
+function buildHull(file) {
+  const faces = [Number(by("faces").value)];
+  return build(file, { serve: ["closest", "segment", "tight"], faces }, false);
 }
 
 // Builds a blob of a file and shows it, unless another file was opened meanwhile.
@@ -327,8 +331,9 @@ function listen() {
     target.value = "";
   });
   by("faces").addEventListener("change", () => {
-    const { file } = state;
-    if (file) open(file.name, file.bytes);
+    const { file, built } = state;
+    if (built) attempt(() => buildHull(file));
+    else if (file) open(file.name, file.bytes);
   });
   by("sample").addEventListener("click", () => {
     open("part.obj", new TextEncoder().encode(by("part.obj").textContent));

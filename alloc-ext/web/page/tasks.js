@@ -12,8 +12,13 @@ class Tasks {
     this.module = Tasks.compile();
   }
 
+  // The text of a script of the page.
+  static text(id) {
+    return document.getElementById(id).textContent;
+  }
+
   static async compile() {
-    const packed = Uint8Array.from(atob(by("wasm").textContent), (c) => c.charCodeAt(0));
+    const packed = Uint8Array.from(atob(Tasks.text("wasm")), (c) => c.charCodeAt(0));
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
     return WebAssembly.compile(await new Response(stream).arrayBuffer());
   }
@@ -44,7 +49,7 @@ class Tasks {
   }
 
   start() {
-    const texts = ["instance", "worker"].map((id) => by(id).textContent);
+    const texts = ["instance", "worker"].map(Tasks.text);
     const address = URL.createObjectURL(new Blob(texts, { type: "text/javascript" }));
     this.worker = new Worker(address);
     URL.revokeObjectURL(address);
