@@ -158,12 +158,25 @@ function move(place) {
   showDistance();
 }
 
+// What the box tree tells beside the distance.
+function sentences({ side, point, triangle }) {
+  const sides = {
+    inside: "The point is inside. ",
+    outside: "The point is outside. ",
+    undecided: "It is undecided whether the point is inside. ",
+  };
+  const at = point.map((x) => Number(x.toPrecision(6))).join(", ");
+  const on = triangle === null ? "" : ` on triangle ${triangle} of the file, counted from 0`;
+  return `${sides[side] ?? ""}The closest point found is ${at}${on}.`;
+}
+
 // Asks the box tree and the hull for the distance of the point, and shows both answers. Returns the
 // answer that is drawn.
 function showDistance() {
   const { instance, place } = state;
   if (!instance || !place) return view.drawMarks(null);
   const [relative, steps] = ["relative", "steps"].map((id) => Number(by(id).value));
+  by("found").textContent = "";
   const rows = [];
   let drawn = null;
   const hasHull = state.built.answer.hulls.length > 0;
@@ -175,18 +188,7 @@ function showDistance() {
       const ends = [roundedOutward(lower, false), roundedOutward(upper, true)];
       rows.push(row([name, ...ends, nodes, ended]));
       if (of === Number(by("of").value) || !drawn) drawn = found;
-      if (of === 0) {
-        const sides = {
-          inside: "The point is inside. ",
-          outside: "The point is outside. ",
-          undecided: "It is undecided whether the point is inside. ",
-        };
-        const triangle = found.triangle === null ? "" : ` on triangle ${found.triangle}`;
-        const at = found.point.map((x) => Number(x.toPrecision(6))).join(", ");
-        by("found").textContent =
-          `${sides[found.side] ?? ""}The closest point found is ${at}${triangle}` +
-          (triangle ? " of the file, counted from 0." : ".");
-      }
+      if (of === 0) by("found").textContent = sentences(found);
     } catch (error) {
       rows.push(row([name, error.message, "", "", ""]));
     }

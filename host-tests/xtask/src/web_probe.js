@@ -36,8 +36,11 @@ const hover = (x, y) => {
   by("marks").dispatchEvent(new PointerEvent("pointermove", at));
 };
 
-await open("part.stl", bytesOf(given.mesh));
+// Of two files the later one is shown.
+const earlier = open("part.obj", new TextEncoder().encode(by("part.obj").textContent));
+await Promise.all([earlier, open("part.stl", bytesOf(given.mesh))]);
 await until(() => state.built?.answer.hulls.length === 1, "built");
+require(state.file.name === "part.stl" && by("failed").hidden, "the later file is shown");
 const colours = new Set(pixels()[0]).size;
 require(colours > 50, `${colours} colours of the mesh and its hull`);
 
@@ -73,6 +76,15 @@ by("steps").selectedIndex = 0;
 const narrow = showDistance();
 require(wide.lower <= narrow.lower && wide.upper - wide.lower > 2 * (narrow.upper - narrow.lower),
   "one node gives a wider interval");
+
+// Another number of faces makes another hull. The point stays.
+const stays = state.place;
+for (const faces of [100, 200]) {
+  by("faces").value = faces;
+  by("faces").dispatchEvent(new Event("change"));
+  await until(() => state.built.answer.hulls[0]?.faces === faces, "built anew");
+}
+require(state.place === stays, "other faces of the hull");
 
 const roundings = [[0.12341, true, 3, "0.124"], [0.12349, false, 3, "0.123"], [1000.0001, true, 7,
   "1000.001"], [9.9996, false, 4, "9.999"], [-0.12341, true, 3, "-0.123"], [0, true, 3, "0"]];
