@@ -46,7 +46,7 @@ pub struct Limits {
     pub flash: Option<usize>,
     /// Bytes of scratch, of memory that is kept between queries, and of the processor's stack.
     pub ram: Option<usize>,
-    /// Largest guaranteed error: the width of an interval, in the mesh's unit.
+    /// Largest error: the width of the widest measured interval, in the mesh's unit.
     pub error: Option<f64>,
     /// Queries a second. It limits nothing without a [processor](Self::cpu).
     pub rate: Option<f64>,

@@ -159,7 +159,7 @@ impl Row {
         self.guaranteed.map_or(f64::INFINITY, |spread| spread.most)
     }
 
-    /// What settings are compared by: the largest guaranteed error, the mean instructions of a
+    /// What settings are compared by: the widest measured interval, the mean instructions of a
     /// Cortex-M4F, and the bytes of flash. `None` without an interval or a cost.
     fn measures(&self) -> Option<[f64; 3]> {
         let [m4f, _] = self.boards;

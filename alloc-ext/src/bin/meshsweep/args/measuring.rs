@@ -145,7 +145,7 @@ pub struct LimitArgs {
     /// Most bytes of RAM: scratch, what is kept between queries, and the processor's stack
     #[arg(long, value_name = "BYTES", value_parser = bytes, help_heading = "Limits")]
     pub ram: Option<usize>,
-    /// Largest guaranteed error: the widest measured interval, in the mesh's unit
+    /// Largest error: the widest measured interval, in the mesh's unit
     ///
     /// Of a thousand points or segments, or those of the file of --at. The interval of another may
     /// be wider, and holds.

@@ -3,6 +3,7 @@
 use super::tree::{format_name, scratch_bytes};
 use meshsweep::counted::Counted;
 use meshsweep::number::{AtMost, Percent};
+use meshsweep_core::internal::num::up_to_f32;
 use meshsweep_core::{TightHull, TightHulls, TightRecord};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -15,6 +16,15 @@ fn all<'a>(hulls: &TightHulls<'a>) -> impl Iterator<Item = TightHull<'a>> {
 /// Bytes of a hull and its distances.
 fn bytes(hull: &TightHull<'_>) -> usize {
     hull.bytes().len() + 2 * hull.record().faces as usize
+}
+
+/// A bound of the distance between a stored hull and the mesh of the file. The record's bound is of
+/// both before rounding moved them; the surface error says how far it did.
+fn to_file(hull: &TightHull<'_>, distance: f32) -> f32 {
+    let moved = hull.bvh().surface_error();
+    // The sum in f64 may be rounded down.
+    let sum = (f64::from(distance) + f64::from(moved)).next_up();
+    if moved == 0.0 { distance } else { up_to_f32(sum) }
 }
 
 /// Void as a fraction of the mesh's volume, if the mesh bounds one. The void of such a mesh is not
@@ -46,8 +56,8 @@ pub(super) fn write(out: &mut dyn Write, hulls: &TightHulls<'_>) -> io::Result<(
             bytes(&hull),
             scratch_bytes(hull.bvh()),
             format_name(hull.bvh()),
-            AtMost(record.slack),
-            AtMost(record.depth)
+            AtMost(to_file(&hull, record.slack)),
+            AtMost(to_file(&hull, record.depth))
         )?;
     }
     Ok(())
@@ -59,8 +69,8 @@ pub(super) fn as_json(hulls: &TightHulls<'_>) -> Value {
         json!({
             "faces": record.faces,
             "void_ratio": void(record),
-            "hull_to_mesh": record.slack,
-            "mesh_to_hull": record.depth,
+            "hull_to_mesh": to_file(&hull, record.slack),
+            "mesh_to_hull": to_file(&hull, record.depth),
             "bytes": bytes(&hull),
             "vertex_format": format_name(hull.bvh()),
             "serves_distances": hull.bvh().serves_distances(),
