@@ -216,6 +216,49 @@ def test_ctrl_c_ends_a_question_soon():
     assert time.perf_counter() - sent[0] < 2
 
 
+def test_ctrl_c_ends_a_slow_question_soon():
+    part = meshsweep.build(sphere(20, 30), "closest,segment,winding")
+    poses = np.tile(np.eye(4), (2000, 1, 1))
+    poses[:, :3, 3] = np.random.default_rng(4).uniform(-0.6, 0.6, (2000, 3))
+    sent = []
+
+    def send():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Timer(0.3, send).start()
+    with pytest.raises(KeyboardInterrupt):
+        part.penetration(part, poses)
+    assert time.perf_counter() - sent[0] < 3
+
+
+def test_answers_that_memory_does_not_hold_are_refused():
+    script = """
+import resource, sys
+import meshsweep, numpy as np
+sys.path.insert(0, "tests")
+from conftest import sphere
+
+part = meshsweep.build(sphere(40, 60))
+points = np.zeros((20_000, 3), np.float32)
+part.all_within(points[:100], 2.0)  # starts the threads
+with open("/proc/self/statm") as told:
+    taken = int(told.read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (taken + (1 << 29),) * 2)
+for ask in [part.nearest, part.all_within]:
+    try:
+        ask(points, 4000 if ask == part.nearest else 2.0)
+    except MemoryError as error:
+        assert "take more memory" in str(error)
+        continue
+    raise AssertionError
+assert len(part.nearest(points[:10], 2**32 - 1)) == 10
+"""
+    if not os.path.exists("/proc/self/statm"):
+        pytest.skip("the memory of a process is not told")
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=100)
+
+
 @pytest.mark.parametrize("what", ["verify", "trade"])
 def test_ctrl_c_ends_a_proof_and_a_trade_soon(what):
     mesh = sphere(6, 8)
