@@ -30,7 +30,10 @@ class Pairs(Opened):
         """The distance of this surface from that of another model, at poses of the other.
 
         `poses`: shape (n, 4, 4) or (n, 3, 4), rigid, from the other's frame to this one's; one as
-        built if there are none. Both need "segment" among the words of `for_`.
+        built if there are none. Both need "segment" among the words of `for_`. Poses are rounded to
+        single precision, and the answer is about the rounded one: far from the origin, and far out
+        on a large model, that moves it by some 1e-7 of these lengths. Add that to distances to
+        keep, or give float32 to see no rounding.
 
         Fields: `lower` and `upper`; `points`, one of each surface in this frame; `triangles`;
         `ended`; `work`.
@@ -43,7 +46,8 @@ class Pairs(Opened):
     ) -> Records:
         """Whether both surfaces are at most `distance` apart, at poses of the other.
 
-        Fields: `verdict`; `triangles`, the witnesses of a `YES`, or -1; `ended`; `work`.
+        Fields: `verdict`; `triangles`, the witnesses of a `YES`, or -1; `ended`; `work`. Poses are
+        rounded, as those of `distance_to`; the distance is not.
         """
         second, matrices = other_of(other), poses_of(poses)
 

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import single
+from ._arrays import pairs, rows, single
 from ._records import Ended, Records, Side, Verdict
 
 
@@ -31,6 +31,14 @@ def rounded(rows: NDArray[Any]) -> tuple[NDArray[np.float32], NDArray[np.float32
         return near, None
     moved = np.nextafter(np.linalg.norm(off, axis=-1).astype(np.float32), np.float32(np.inf))
     return near, np.where(np.any(off, axis=-1), moved, np.float32(0))
+
+
+def moved_pairs(a: ArrayLike, b: ArrayLike) -> NDArray[np.float32]:
+    """Rows of eight: those of `pairs`, and bounds of how far rounding moved each of both points."""
+    both = pairs(a, b)
+    bounds = [rounded(rows(a, "starts"))[1], rounded(rows(b, "ends"))[1]]
+    columns = [np.zeros(1, np.float32) if moved is None else moved for moved in bounds]
+    return np.column_stack([both, *[np.broadcast_to(moved, len(both)) for moved in columns]])
 
 
 def widened(

@@ -12,6 +12,7 @@ from ._arrays import facing as facing_of
 from ._arrays import pairs, whole
 from ._opened import Opened
 from ._records import Facing, Records, ask, ask_lists, parts
+from ._rounding import moved_pairs
 
 
 class AllHits(NamedTuple):
@@ -40,6 +41,12 @@ class Segments(Opened):
         touches or the steps ended; `t_lower`, `t_upper`, which contain the parameter of the first
         common point, 0 at the start and 1 at the end, infinite if there is none; `point`, NaN
         without a hit; `triangle`, or -1; `ended`; `work`.
+
+        Segments are rounded to single precision. A `NO` is proved for the segment as it was given:
+        where only the rounded one is clear, by less than the rounding, it is `UNDECIDED`. There
+        all facings count, so with `facing` a segment that was moved is `UNDECIDED` where it passes
+        the other side of a triangle. All else, a `YES` too, is about the rounded segment: give
+        float32 to see no rounding.
         """
         return self._first_hit(starts, ends, False, facing, steps)
 
@@ -51,14 +58,17 @@ class Segments(Opened):
         facing: Facing | int = Facing.BOTH,
         steps: int | None = None,
     ) -> Records:
-        """The same of rays without an end. The parameter counts lengths of the direction."""
+        """The same of rays without an end. The parameter counts lengths of the direction.
+
+        Origins and directions are rounded. A `NO` is proved for the ray as it was given.
+        """
         return self._first_hit(origins, directions, True, facing, steps)
 
     def _first_hit(
         self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing | int, steps: int | None
     ) -> Records:
         how = is_ray, facing_of(facing), whole(steps, "steps")
-        return ask(self._model.first_hit, _records.FIRST_HIT, pairs(a, b), *how)
+        return ask(self._model.first_hit, _records.FIRST_HIT, moved_pairs(a, b), *how)
 
     def all_hits(
         self, starts: ArrayLike, ends: ArrayLike, *, facing: Facing | int = Facing.BOTH
@@ -69,13 +79,17 @@ class Segments(Opened):
         where `is_complete`. Elsewhere the segment passes so near to a triangle that what is stored
         does not tell whether it hits: such a triangle may be missing. So an empty list is clear
         only where `is_complete`; `first_hit` tells by its verdict.
+
+        Segments are rounded to single precision, and the lists, with what is said of them, are
+        about the rounded ones. Give float32 to see no rounding.
         """
         return self._all_hits(starts, ends, False, facing)
 
     def all_hits_of_ray(
         self, origins: ArrayLike, directions: ArrayLike, *, facing: Facing | int = Facing.BOTH
     ) -> AllHits:
-        """The same of rays without an end. The parameter counts lengths of the direction."""
+        """The same of rays without an end, which are rounded. The parameter counts lengths of the
+        direction."""
         return self._all_hits(origins, directions, True, facing)
 
     def _all_hits(self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing | int) -> AllHits:

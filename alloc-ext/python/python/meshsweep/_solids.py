@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, limits, pairs, rows, single, solids, whole
+from ._arrays import checked, limits, rows, solids, whole
 from ._meshsweep import QueryError
 from ._opened import Opened
 from ._records import Records, ask
-from ._rounding import asked, rounded, widened
+from ._rounding import asked, moved_pairs, rounded, up, widened
 
 
 def _placed(corners: ArrayLike, what: str) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
@@ -127,14 +127,19 @@ class Solids(Opened):
         Fields: those of `first_hit`. `NO` where it is proved that no point of the tool touches the
         mesh at any instant, `YES` where it certainly meets the mesh by `t_upper`; before `t_lower`
         it is clear. `point` is of the triangle that may stop it. Only the surface counts. Starts,
-        ends and corners are rounded to single precision. The rounding of their sums, and of the
-        radius, is in the answer: a tool without radius may stay `UNDECIDED` where it hits.
+        ends and corners are rounded to single precision. Their rounding, that of their sums, and
+        of the radius, is in the answer: a tool without radius may stay `UNDECIDED` where it hits.
         """
-        corners = single(rows(tool, "tool"))
+        corners, moved = rounded(rows(tool, "tool"))
         if not 1 <= len(corners) <= 32:
             raise QueryError(f"tool: 1 to 32 corners are wanted, not {len(corners)}")
         how = corners, checked(radius, "radius"), whole(steps, "steps")
-        return ask(self._model.first_contact, _records.FIRST_HIT, pairs(starts, ends), *how)
+        ways = moved_pairs(starts, ends)
+        slack = ways[:, 6:].max(axis=1).astype(np.float64)
+        if moved is not None:
+            slack += moved.max()
+        ways = np.column_stack([ways[:, :6], np.where(slack > 0, up(slack), slack)])
+        return ask(self._model.first_contact, _records.FIRST_HIT, ways.astype(np.float32), *how)
 
 
 def _slack(moved: NDArray[np.float32], radius: float) -> NDArray[np.float64]:

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, pairs, rows, whole
+from ._arrays import checked, rows, whole
 from ._arrays import poses as poses_of
 from ._meshsweep import QueryError
 from ._opened import Opened, other_of
 from ._records import Records, ask, ask_lists, parts
-from ._rounding import least, rounded, widened
+from ._rounding import least, moved_pairs, rounded, widened
 
 
 class Triboxes(NamedTuple):
@@ -83,9 +83,13 @@ class TriboxQuestions(Opened):
         Fields: `verdict`: `NO` where it is proved that the segment is clear, else `UNDECIDED`;
         `t_lower`, the parameter before which it is clear, 0 at the start and 1 at the end, infinite
         if it is clear; `tribox`, the node that it may enter there, or -1; `ended`; `work`.
+
+        Segments are rounded to single precision. A `NO` is proved for the segment as it was given:
+        of one that was moved, by up to 64 lower bounds of distances along it. `t_lower` of others
+        is that of the rounded segment.
         """
         question, dtype = self._model.tribox_hit, _records.TRIBOX_HIT
-        return ask(question, dtype, pairs(starts, ends), whole(steps, "steps"))
+        return ask(question, dtype, moved_pairs(starts, ends), whole(steps, "steps"))
 
     def tribox_within_of(
         self, other: Opened, distance: SupportsFloat, poses: ArrayLike | None = None
@@ -95,7 +99,8 @@ class TriboxQuestions(Opened):
 
         Fields: `verdict`: `NO` where it is proved that all points of both are farther, insides of
         solid triboxes too; else `UNDECIDED`, never `YES`; `triboxes`, a node of each that may be
-        nearer, or -1; `ended`; `work`.
+        nearer, or -1; `ended`; `work`. Poses are rounded to single precision, and the answer is
+        about the rounded one.
         """
         how = other_of(other), least(checked(distance))
         return ask(self._model.tribox_separation, _records.TRIBOX_PAIR, poses_of(poses), *how)
@@ -109,7 +114,8 @@ class TriboxQuestions(Opened):
         """All pairs of triboxes that may meet, at poses of the other: a list of n records.
 
         Field: `triboxes`, a node of each model, as `Triboxes.node` names them. An empty list proves
-        that the models are apart, insides of solid triboxes too. Both need "triboxes".
+        that the models are apart, insides of solid triboxes too. Both need "triboxes". Poses are
+        rounded, as those of `tribox_within_of`.
         """
         second, question = other_of(other), self._model.tribox_candidates
         begins, found, _ = ask_lists(question, _records.CANDIDATE, poses_of(poses), second)
