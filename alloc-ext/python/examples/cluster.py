@@ -16,7 +16,8 @@ import meshsweep
 import numpy as np
 from dask.distributed import Client, LocalCluster, as_completed
 
-CHUNK = 250_000
+# Whole batches of questions: then each record is that of one process, its work too.
+CHUNK = 15 * 2**14
 
 
 def ask_chunk(model, points, answers, begin, end):

@@ -69,9 +69,9 @@ impl Model {
         arrays(py, &enclosing(&hull, &mesh_of(&hull, hull.faces(&level)))?)
     }
 
-    /// Number of levels of the hull hierarchy; 0 without one.
-    fn hull_levels(&self) -> u32 {
-        self.blob().hull().map_or(0, |hull| hull.header().levels)
+    /// Number of levels of the hull hierarchy.
+    fn hull_levels(&self) -> PyResult<u32> {
+        self.enclosing_hull().map(|hull| hull.header().levels)
     }
 
     /// The hull that is fine around a ball, in a box, around a segment, or everywhere; and the

@@ -159,6 +159,11 @@ impl Model {
         ];
         let words: Vec<&str> = words.iter().filter(|word| word.1).map(|word| word.0).collect();
         facts.set_item("serves", words)?;
+        let segments = || curve.as_ref().map(Curve::segment_count);
+        facts.set_item(
+            "elements",
+            tree.as_ref().map(|tree| tree.triangle_count()).or_else(segments),
+        )?;
         facts.set_item("is_curve", curve.is_some())?;
         facts.set_item("is_flat", curve.as_ref().is_some_and(Curve::is_planar))?;
         let stored = self.stored_bounds();

@@ -31,7 +31,10 @@ def test_the_bytes_are_those_that_are_saved_loaded_and_pickled(tmp_path, fixture
     assert part.serves == ["closest", "tight"] and part.is_closed and part.has_sides
     part.save(tmp_path / "part.msw")
     again = meshsweep.load(tmp_path / "part.msw")
-    assert bytes(again) == bytes(part) == bytes(pickle.loads(pickle.dumps(part)))
+    copied = pickle.loads(pickle.dumps(part))
+    assert bytes(again) == bytes(part) == bytes(copied) and copied.report == part.report
+    assert again == part == copied and len({again, part, copied}) == 1 and part != bytes(part)
+    assert part != meshsweep.build(fixtures / "bracket.stl")
     assert again.report == [] and any("read" in note.text for note in part.report)
     assert "closest,tight" in repr(part)
 
@@ -67,6 +70,24 @@ def test_options_are_refused_by_name():
         ({"tight_faces": [20]}, "tight"),
         ({"for_": "sdf", "sdf_bytes": 1}, "sdf"),
         ({"unit": "mile"}, "um, mm"),
+        ({"unit": 3}, "unit: a string is wanted, not 3"),
+        ({"for_": None}, "for_: words are wanted"),
+        ({"for_": 5}, "for_: words are wanted"),
+        ({"for_": [1]}, "for_: words are wanted"),
+        ({"for_": b"closest"}, "for_: words are wanted"),
+        ({"tight_for": 5}, "tight_for: words are wanted"),
+        ({"vertex_bits": -1}, "vertex_bits: -1 is none from 0"),
+        ({"base_faces": 2**32}, "base_faces: 4294967296 is none from 0"),
+        ({"triboxes": 1.5}, "triboxes: a whole number is wanted"),
+        ({"sdf_bytes": "4096"}, "sdf_bytes: a whole number is wanted"),
+        ({"tight_faces": [20.5]}, "tight_faces: a whole number is wanted"),
+        ({"tight_faces": [None]}, "tight_faces: whole numbers are wanted"),
+        ({"slack": "1"}, "slack: one number is wanted"),
+        ({"sdf_error": 10**400}, "sdf_error: a number is beyond double"),
+        ({"extrema": "no"}, "extrema: True or False is wanted"),
+        ({"closed": 1}, "closed: True or False is wanted"),
+        ({"frames": 5}, "frames: a list of files is wanted, not 5"),
+        ({"frames": [5]}, "frames: a list of files is wanted"),
     ]:
         with pytest.raises(meshsweep.BuildError, match=words):
             meshsweep.build(sphere(), **options)
@@ -101,6 +122,15 @@ def test_questions_are_refused_with_the_row_and_the_word_to_build_with():
         (lambda part: part.within([[0, 0, 0]], "far"), "one number"),
         (lambda part: part.within([[0, 0, 0]], [1, 2]), "one number"),
         (lambda part: part.within([[0, 0, 0]], 1e39), "single precision"),
+        (lambda part: part.within([[0, 0, 0]], "1"), "one number is wanted, not '1'"),
+        (lambda part: part.within([[0, 0, 0]], 10**400), "beyond double precision"),
+        (lambda part: part.within([[1e-9, 0, 0]], 3.4028234e38), "rounding it is beyond"),
+        (lambda part: part.within(np.zeros((2, 3)), [1, -1]), "row 1: distance: -1.0 is negative"),
+        (lambda part: part.within(np.zeros((2, 3)), [1]), r"shape \(2,\) is wanted, not \(1,\)"),
+        (lambda part: part.within([[0, 0, 0]], 1, field_first=1), "True or False"),
+        (lambda part: part.closest_point([[0, 0, 0]], precise="no"), "precise: True or False"),
+        (lambda part: part.triboxes(1.5), "count: a whole number"),
+        (lambda part: part.first_contact_of(part, np.eye(4), np.eye(4), straight=0), "straight"),
         (lambda part: part.first_hit(np.zeros((2, 3)), np.zeros((3, 3))), "2 starts for 3 ends"),
         (lambda part: part.first_hit([[0, 0, 0]], [[1, 0, 0]], facing=7), "Facing"),
         (lambda part: part.distance_to(np.zeros((2, 3))), "another Model is wanted"),

@@ -62,8 +62,12 @@ def test_what_cannot_be_measured_is_refused(fixtures):
         ({"at": np.zeros((4, 2))}, "shape"),
         ({"at": [[np.inf, 0, 0]]}, "finite"),
         ({"count": 0}, "at least 1"),
+        ({"count": 1.5}, "count: a whole number"),
+        ({"count": 2**70}, "count: .* is none from 0"),
+        ({"for_": None}, "closest, segment"),
+        ({"unit": 3}, "unit: a string"),
     ]:
-        with pytest.raises(meshsweep.MeshsweepError, match=words):
+        with pytest.raises(meshsweep.BuildError, match=words):
             meshsweep.trade(sphere(), **options)
     with pytest.raises(meshsweep.BuildError, match="csv"):
         meshsweep.trade(fixtures / "fence.csv")

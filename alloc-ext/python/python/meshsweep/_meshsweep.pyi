@@ -22,6 +22,7 @@ _Tell: TypeAlias = Callable[[str, float], Any] | None
 
 class _Facts(TypedDict):
     serves: list[str]
+    elements: int | None
     is_curve: bool
     is_flat: bool
     bounds: list[list[float]] | None

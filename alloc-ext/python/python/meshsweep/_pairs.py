@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, limits
+from ._arrays import checked, limits, yes_or_no
 from ._arrays import poses as poses_of
 from ._meshsweep import QueryError
 from ._opened import Opened, other_of
-from ._records import Records, ask, ask_lists, parts
+from ._records import Lists, Records, ask, ask_lists
 from ._rounding import asked, least
 
 
@@ -57,18 +57,20 @@ class Pairs(Opened):
         return asked(question, checked(distance), np.zeros(1))
 
     def overlap(self, other: Opened, poses: ArrayLike | None = None) -> Records:
-        """Whether both surfaces meet, at poses of the other. Fields: those of `within_of`."""
+        """Whether both surfaces meet, at poses of the other. Fields: those of `within_of`. Poses
+        are rounded, as those of `distance_to`."""
         return ask(self._model.meets, _records.MEETS, poses_of(poses), other_of(other), None)
 
-    def all_overlaps(self, other: Opened, poses: ArrayLike | None = None) -> list[Records]:
-        """All pairs of triangles that meet or may meet, at poses of the other: a list of n records.
+    def all_overlaps(self, other: Opened, poses: ArrayLike | None = None) -> Lists:
+        """All pairs of triangles that meet or may meet, at poses of the other: `Lists` of n
+        records. Poses are rounded, as those of `distance_to`.
 
         Fields: `triangles`, one of each model; `is_certain`: whether it is proved that they meet.
         Lists are complete, always: no other pair meets. Both need "segment".
         """
         second, question = other_of(other), self._model.all_overlaps
         begins, found, _ = ask_lists(question, _records.OVERLAP, poses_of(poses), second)
-        return parts(begins, found)
+        return Lists(begins, found)
 
     def penetration(
         self,
@@ -80,7 +82,7 @@ class Pairs(Opened):
         steps: int | None = None,
     ) -> Records:
         """How two solids lie to each other, and how deep they are in each other, at poses of the
-        other. Both need "closest,segment,winding", and closed meshes.
+        other, which are rounded. Both need "closest,segment,winding", and closed meshes.
 
         Fields: `relation` (a `Relation`); `lower` and `upper` of the penetration depth, which is
         the length of the shortest translation after which no point is inside both; `apart`, a
@@ -104,7 +106,7 @@ class Pairs(Opened):
     ) -> Records:
         """How far another model may move before it is within `keep` of this surface.
 
-        Poses as those of `distance_to`, one of each for a move. The way from one to the other is a
+        Poses as those of `distance_to`, rounded too, one of each for a move. The way from one to the other is a
         screw, on which the model stays rigid; with `straight` each point goes along a straight
         line, and a model that turns shrinks on the way. Both need "segment".
 
@@ -116,5 +118,6 @@ class Pairs(Opened):
         begins, ends = poses_of(from_poses), poses_of(to_poses)
         if len(begins) != len(ends):
             raise QueryError(f"{len(begins)} poses to begin at, {len(ends)} to end at")
-        how = other_of(other), straight, least(checked(keep, "keep"))
+        is_straight = yes_or_no(straight, "straight")
+        how = other_of(other), is_straight, least(checked(keep, "keep"))
         return ask(self._model.first_contact_of, _records.MOVED, np.hstack([begins, ends]), *how)

@@ -1,9 +1,8 @@
 """Answers as NumPy records. `src/*.rs` writes them in this order."""
 
-import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import IntEnum
-from typing import Any, cast
+from typing import Any, SupportsIndex, cast, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -137,6 +136,33 @@ def ask_lists(
     return begins, raw.view(dtype).view(np.recarray), is_complete
 
 
-def parts(begins: NDArray[np.uint64], found: Records) -> list[Records]:
-    """The records of each row."""
-    return [cast(Records, found[begin:end]) for begin, end in itertools.pairwise(begins)]
+class Lists(Sequence[Records]):
+    """Answers to n rows that have any number of records each: `lists[3]` has those of row 3.
+
+    All records at once spare the time of making n arrays: those of row 3 are
+    `lists.records[lists.begins[3]:lists.begins[4]]`, and `np.diff(lists.begins)` counts them.
+    """
+
+    begins: NDArray[np.uint64]
+    """Shape (n + 1,): where the records of each row begin, and the number of all."""
+    records: Records
+    """Those of all rows, one row behind the other."""
+
+    def __init__(self, begins: NDArray[np.uint64], records: Records) -> None:
+        self.begins, self.records = begins, records
+
+    def __len__(self) -> int:
+        return len(self.begins) - 1
+
+    @overload
+    def __getitem__(self, row: SupportsIndex) -> Records: ...
+    @overload
+    def __getitem__(self, row: slice) -> list[Records]: ...
+    def __getitem__(self, row: SupportsIndex | slice) -> Records | list[Records]:
+        if isinstance(row, slice):
+            return [self[one] for one in range(*row.indices(len(self)))]
+        at = range(len(self))[row]
+        return cast(Records, self.records[self.begins[at] : self.begins[at + 1]])
+
+    def __repr__(self) -> str:
+        return f"<meshsweep.Lists of {len(self)} rows: {len(self.records)} records>"

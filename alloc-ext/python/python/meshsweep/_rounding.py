@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import pairs, rows, single
+from ._arrays import MOST, pairs, rows, single
+from ._meshsweep import QueryError
 from ._records import Ended, Records, Side, Verdict
 
 
@@ -70,17 +71,26 @@ def widened(
 
 
 def asked(
-    ask: Callable[[NDArray[np.float32]], Records], distance: float, slack: NDArray[np.float64]
+    ask: Callable[[NDArray[np.float32]], Records],
+    distance: float | NDArray[np.float64],
+    slack: NDArray[np.float64],
 ) -> Records:
-    """Verdicts about `distance`, which single precision may not hold, with so much slack.
+    """Verdicts about a distance, or one of each row, which single precision may not hold, with so
+    much slack.
 
     Farther than the distance and the slack is farther; nearer than the distance less the slack is
-    nearer; the rest is undecided.
+    nearer; the rest is undecided. The work is that of both questions.
     """
-    if float(np.float32(distance)) == distance and not np.any(slack):
-        return ask(np.array([distance], np.float32))
+    distance = np.atleast_1d(distance)
+    limits = single(distance)
+    if np.all(limits == distance) and not np.any(slack):
+        return ask(limits)
+    if np.any(single(distance + slack) >= MOST):
+        raise QueryError("distance: with the rounding it is beyond single precision")
     found = ask(up(distance + slack))
     near = ask(down(np.maximum(distance - slack, 0.0)))
+    work = found.work.astype(np.uint64) + near.work
+    found.work[:] = near.work[:] = np.minimum(work, np.uint64(2**32 - 1))
     is_near = (near.verdict == Verdict.YES) & (distance >= slack)
     is_open = (found.verdict == Verdict.YES) & ~is_near
     found[is_near] = near[is_near]

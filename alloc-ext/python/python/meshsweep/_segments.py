@@ -11,15 +11,15 @@ from . import _records
 from ._arrays import facing as facing_of
 from ._arrays import pairs, whole
 from ._opened import Opened
-from ._records import Facing, Records, ask, ask_lists, parts
+from ._records import Facing, Lists, Records, ask, ask_lists
 from ._rounding import moved_pairs
 
 
 class AllHits(NamedTuple):
     """The triangles that each of n segments or rays meets."""
 
-    hits: list[Records]
-    """A list of n records."""
+    hits: Lists
+    """Records of each, first ones first."""
     is_complete: NDArray[np.bool_]
     """Shape (n,): whether it is proved that no other triangle is hit."""
 
@@ -73,7 +73,7 @@ class Segments(Opened):
     def all_hits(
         self, starts: ArrayLike, ends: ArrayLike, *, facing: Facing | int = Facing.BOTH
     ) -> AllHits:
-        """All triangles that each segment meets, first ones first: lists of n records.
+        """All triangles that each segment meets, first ones first.
 
         Fields: `verdict`, `YES` or `UNDECIDED`; `t`; `point`; `triangle`. No other triangle is hit
         where `is_complete`. Elsewhere the segment passes so near to a triangle that what is stored
@@ -96,4 +96,4 @@ class Segments(Opened):
         how = is_ray, facing_of(facing)
         question = self._model.all_hits
         begins, found, is_complete = ask_lists(question, _records.ALL_HITS, pairs(a, b), *how)
-        return AllHits(parts(begins, found), is_complete)
+        return AllHits(Lists(begins, found), is_complete)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, limits, rows, solids, whole
+from ._arrays import checked, distances, limits, rows, solids, whole, yes_or_no
 from ._meshsweep import QueryError
 from ._opened import Opened
 from ._records import Records, ask
@@ -58,29 +58,31 @@ class Solids(Opened):
     def solid_within(
         self,
         corners: ArrayLike,
-        distance: SupportsFloat,
+        distance: ArrayLike,
         *,
         radius: SupportsFloat = 0.0,
         steps: int | None = None,
         field_first: bool = False,
     ) -> Records:
-        """Whether the surface is at most `distance` from each solid; 0 asks whether they meet.
+        """Whether the surface is at most `distance` from each solid: one number, or shape (n,); 0
+        asks whether they meet.
 
         `corners` as those of `solid_distance`. Fields: `verdict`; `triangle`, the witness of a
-        `YES`, or -1; `ended`; `work`. A flat solid without radius that passes through the surface
+        `YES`, or -1; `ended`; `work`, as that of `within`. A flat solid without radius that passes through the surface
         is `UNDECIDED`. With `field_first` the distance field decides about balls and capsules where
         it can; a `YES` of the field has no witness. Needs "sdf" too.
         """
         near, moved = _placed(corners, "corners")
         size = checked(radius, "radius")
-        how = float(np.float32(size)), whole(steps, "steps"), field_first
+        is_first = yes_or_no(field_first, "field_first")
+        how = float(np.float32(size)), whole(steps, "steps"), is_first
 
         def question(limits: NDArray[np.float32]) -> Records:
             limits = np.broadcast_to(limits[:, None], (len(near), 1))
             question = self._model.solid_within
             return ask(question, _records.WITHIN, np.hstack([near, limits]), *how)
 
-        return asked(question, checked(distance), _slack(moved, size))
+        return asked(question, distances(distance, len(near)), _slack(moved, size))
 
     def solid_first_contact(
         self,
@@ -105,7 +107,8 @@ class Solids(Opened):
             raise QueryError(f"solids and their corners at the start, at the end: {shapes}")
         moved = np.maximum(moved, moved_there)
         moves = np.hstack([begins, ends, moved[:, None]])
-        how = checked(radius, "radius"), whole(steps, "steps"), field_first
+        is_first = yes_or_no(field_first, "field_first")
+        how = checked(radius, "radius"), whole(steps, "steps"), is_first
         return ask(self._model.solid_first_contact, _records.FIRST_HIT, moves, *how)
 
     def first_contact(

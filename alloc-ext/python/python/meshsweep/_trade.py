@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _meshsweep
-from ._arrays import numbers, single
+from ._arrays import numbers, single, whole, word
 from ._mesh import Bar, Mesh, Progress, given
-from ._meshsweep import QueryError
+from ._meshsweep import BuildError
 
 
 class Instructions(NamedTuple):
@@ -82,23 +82,26 @@ def trade(
 
     Cost: a build for each structure, and each query against all triangles in double precision.
     `progress` is called as that of `build`, from another thread. Its exception, and Ctrl-C, end the
-    call; threads that measure may work on for a while.
+    call; threads that measure may work on for a while. Raises `BuildError` if the mesh or an option
+    is refused.
     """
     places: str | list[list[float]]
     if isinstance(at, str):
         places = at
     else:
-        asked = numbers(at, "at")
+        asked = numbers(at, "at", BuildError)
         shape, wanted = ((2, 3), "(n, 2, 3)") if for_ == "segment" else ((3,), "(n, 3)")
         if asked.shape[1:] != shape:
-            raise QueryError(f"at: shape {wanted} is wanted, not {asked.shape}")
+            raise BuildError(f"at: shape {wanted} is wanted, not {asked.shape}")
         if not np.all(np.isfinite(single(asked))):
-            raise QueryError("at: a number is not finite, or beyond single precision")
+            raise BuildError("at: a number is not finite, or beyond single precision")
         places = single(asked).reshape(-1, 3).tolist()
-    if count < 1:
-        raise QueryError("count: at least 1 is wanted")
+    most = whole(count, "count", BuildError)
+    if not most:
+        raise BuildError("count: at least 1 is wanted")
+    question, symbol = word(for_, "for_", BuildError) or str(for_), word(unit, "unit", BuildError)
     with Bar(progress) as tell:
-        found = _meshsweep.trade(given(mesh), for_, places, count, unit, tell)
+        found = _meshsweep.trade(given(mesh), question, places, most, symbol, tell)
     rows = []
     for row in found["rows"]:
         boards = [Instructions(**board) for board in row["instructions"]]
