@@ -109,10 +109,9 @@ def test_a_winding_number_has_a_side_of_the_point_as_given_or_none():
     moved = (points != points.astype(np.float32)).any(axis=1)
     closed = meshsweep.build((vertices, triangles), "winding")
     assert (closed.winding_number(points).side[moved] != Side.UNDECIDED).all()
-    # Within the rounding of the surface, where the rounded point may have a side.
+    # Within the rounding of the surface.
     middle = vertices.astype(np.float64)[triangles].mean(axis=1)
     near = middle * (1 + np.random.default_rng(9).uniform(-1e-8, 1e-8, (len(middle), 1)))
-    assert (closed.winding_number(near.astype(np.float32)).side != Side.UNDECIDED).any()
     assert (closed.winding_number(near).side == Side.UNDECIDED).all()
     # Of an open mesh it changes everywhere.
     ajar = meshsweep.build((vertices, triangles[1:]), "winding")

@@ -16,9 +16,10 @@ those that firmware computes.
 and intervals of distances, sides and verdicts about one distance are widened by that, so that they
 hold for the points as given. So are answers about solids, by the rounding of their corners. The
 side by a winding number may change by any motion, so `signed_distance` does not use it for points
-that were moved, and `winding_number` tells their sides of a closed mesh alone, away from it. Segments and rays are rounded, and a `NO` of `first_hit` and of its kin is proved
-for the one as given; all else is about the rounded one. Poses are rounded, and the answer is about
-the rounded one. Give float32 to see no rounding.
+that were moved, and `winding_number` tells their sides of a closed mesh alone, away from it.
+Segments and rays are rounded, and a `NO` of `first_hit` and of its kin is proved for the one as
+given; all else is about the rounded one. Poses are rounded, and the answer is about the rounded
+one. Give float32 to see no rounding.
 
 **Processes.** A model can be pickled. The child of a fork has threads of its own.
 """

@@ -106,9 +106,9 @@ class Pairs(Opened):
     ) -> Records:
         """How far another model may move before it is within `keep` of this surface.
 
-        Poses as those of `distance_to`, rounded too, one of each for a move. The way from one to the other is a
-        screw, on which the model stays rigid; with `straight` each point goes along a straight
-        line, and a model that turns shrinks on the way. Both need "segment".
+        Poses as those of `distance_to`, rounded too, one of each for a move. The way from one to
+        the other is a screw, on which the model stays rigid; with `straight` each point goes along
+        a straight line, and a model that turns shrinks on the way. Both need "segment".
 
         Fields: `verdict`: `NO` where it is proved that the surfaces are farther apart than `keep`
         during the whole move, else `UNDECIDED`; `clear_until`, the part of the move, 0 to 1, before

@@ -35,10 +35,10 @@ class Points(Opened):
         Fields: `lower` and `upper`, which contain the distance to the input mesh; `point`, of the
         surface and at most `upper` away from the rounded query, but then rounded itself to single
         precision, and of a model that was cut, of its hull; `triangle`, its number in the input
-        file, or -1; `ended`; `work`, which is less after a neighbour in the same 16384 rows:
-        questions about other rows change it, and nothing else. Curves have `polyline`, `segment` and `safe_motion` in
-        place of `triangle`: of every point that is less than `safe_motion` away from the one given,
-        the segment is the closest one. 0 is no statement.
+        file, or -1; `ended`; `work`, which is less after a near point in the same 16384 rows: it
+        depends on the other rows, and nothing else does. Curves have `polyline`, `segment` and
+        `safe_motion` in place of `triangle`: of every point that is less than `safe_motion` away
+        from the one given, the segment is the closest one. 0 is no statement.
 
         A search ends once the interval is narrower than `rel` of the distance or than `abs`, or
         after so many `steps`: the interval is wider then, and holds.
@@ -135,9 +135,9 @@ class Points(Opened):
     def all_within(self, points: ArrayLike, distance: SupportsFloat) -> Lists:
         """All triangles that may be at most `distance` from each point: `Lists` of n records.
 
-        Fields: `lower`, `upper`, `point`, `triangle`, as those of `closest_point` (of curves `polyline` and `segment`), and
-        `is_certain`: false of triangles that are perhaps a little farther. Lists are complete,
-        always: no other triangle is so near. Points in double precision that single precision does
+        Fields: `lower`, `upper`, `point`, `triangle`, as those of `closest_point` (of curves
+        `polyline` and `segment`), and `is_certain`: false of triangles that are perhaps a little
+        farther. Lists are complete, always: no other triangle is so near. Points in double precision that single precision does
         not hold are refused.
         """
         near, moved = self._points(points)

@@ -68,9 +68,9 @@ class Solids(Opened):
         asks whether they meet.
 
         `corners` as those of `solid_distance`. Fields: `verdict`; `triangle`, the witness of a
-        `YES`, or -1; `ended`; `work`, as that of `within`. A flat solid without radius that passes through the surface
-        is `UNDECIDED`. With `field_first` the distance field decides about balls and capsules where
-        it can; a `YES` of the field has no witness. Needs "sdf" too.
+        `YES`, or -1; `ended`; `work`, as that of `within`. A flat solid without radius that passes
+        through the surface is `UNDECIDED`. With `field_first` the distance field decides about
+        balls and capsules where it can; a `YES` of the field has no witness. Needs "sdf" too.
         """
         near, moved = _placed(corners, "corners")
         size = checked(radius, "radius")
