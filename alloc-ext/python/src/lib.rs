@@ -2,7 +2,9 @@
 //! out; `python/meshsweep` gives them names.
 
 mod build;
+mod engine;
 mod error;
+mod frames;
 mod hausdorff;
 mod hulls;
 mod mesh;
@@ -11,12 +13,14 @@ mod pairs;
 mod points;
 mod pool;
 mod record;
+mod rounding;
 mod rows;
 mod segments;
 mod solids;
 mod trade;
 mod triboxes;
 mod verify;
+mod views;
 
 use pyo3::prelude::*;
 
@@ -31,7 +35,7 @@ mod _meshsweep {
     #[pymodule_export]
     use crate::model::Model;
     #[pymodule_export]
-    use crate::trade::trade;
+    use crate::trade::{choose, trade};
     #[pymodule_export]
     use crate::verify::verify;
 }

@@ -4,7 +4,7 @@ use crate::error::{missing, of_open};
 use meshsweep::builder::Built;
 use meshsweep::bvh::FastBvh;
 use meshsweep::distances::{Distances, has_sides};
-use meshsweep_core::{Blob, Budget, Bvh, BvhWithSdf, Curve};
+use meshsweep_core::{Blob, Budget, Bvh, BvhWithSdf, Curve, Sdf};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use self_cell::self_cell;
@@ -27,6 +27,9 @@ pub struct Model {
 
 /// More scratch entries than a curve needs: with these, searches go best first.
 pub const BEST_FIRST: usize = 256;
+
+/// The same of a hull hierarchy.
+pub const BESIDE_HULL: usize = 4096;
 
 /// A budget of two tolerances, a part of the distance and a length, and of steps; `None` is no
 /// limit.
@@ -82,9 +85,14 @@ impl Model {
         tree.map(FastBvh::new).ok_or_else(|| missing("box tree for this question", word))
     }
 
-    /// The same with the distance field, which is asked first.
+    /// The distance field.
+    pub fn field_alone(&self) -> PyResult<Sdf<'_>> {
+        self.blob().sdf().map_err(|_| missing("distance field", "sdf"))
+    }
+
+    /// The box tree with the distance field, which is asked first.
     pub fn tree_with_field(&self, word: &'static str) -> PyResult<BvhWithSdf<'_>> {
-        let field = self.blob().sdf().map_err(|_| missing("distance field", "sdf"))?;
+        let field = self.field_alone()?;
         Ok(BvhWithSdf::new(*self.tree(word)?, field))
     }
 
@@ -160,10 +168,10 @@ impl Model {
         let words: Vec<&str> = words.iter().filter(|word| word.1).map(|word| word.0).collect();
         facts.set_item("serves", words)?;
         let segments = || curve.as_ref().map(Curve::segment_count);
-        facts.set_item(
-            "elements",
-            tree.as_ref().map(|tree| tree.triangle_count()).or_else(segments),
-        )?;
+        let deformable = blob.deformable_hull().ok();
+        let of_frames = || deformable.as_ref().map(|hull| hull.rest().triangle_count());
+        let elements = tree.as_ref().map(|tree| tree.triangle_count());
+        facts.set_item("elements", elements.or_else(segments).or_else(of_frames))?;
         facts.set_item("is_curve", curve.is_some())?;
         facts.set_item("is_flat", curve.as_ref().is_some_and(Curve::is_planar))?;
         let stored = self.stored_bounds();
@@ -172,6 +180,7 @@ impl Model {
         facts.set_item("is_closed", tree.as_ref().map(Bvh::is_closed))?;
         let is_fence = || curve.as_ref().map(|curve| curve.check_fence().is_ok());
         facts.set_item("has_sides", tree.as_ref().map(has_sides).or_else(is_fence))?;
+        facts.set_item("frames", deformable.as_ref().map(|hull| hull.frames()))?;
         facts.set_item("field_kind", blob.sdf().ok().map(|field| field.kind().name()))?;
         let of_curve = || curve.as_ref().map(Curve::surface_error);
         facts.set_item("surface_error", tree.as_ref().map(Bvh::surface_error).or_else(of_curve))?;

@@ -20,7 +20,8 @@ fn entries(pair: &[FastBvh<'_>; 2]) -> usize {
 }
 
 impl Model {
-    fn pair<'a>(&'a self, other: &'a Model, word: &'static str) -> PyResult<[FastBvh<'a>; 2]> {
+    /// Both box trees, built for this word.
+    pub fn pair<'a>(&'a self, other: &'a Model, word: &'static str) -> PyResult<[FastBvh<'a>; 2]> {
         Ok([self.tree(word)?, other.tree(word)?])
     }
 }
@@ -41,29 +42,31 @@ impl Model {
         })
     }
 
-    /// Whether the surfaces are within a distance, or meet if there is none.
-    fn meets<'py>(
+    /// Whether the surfaces are within a distance.
+    fn within_of<'py>(
         &self,
         asked: Asked<'py>,
         other: &Model,
-        distance: Option<f32>,
+        distance: f32,
     ) -> PyResult<Records<'py>> {
         let pair = self.pair(other, "segment")?;
         asked.each(entries(&pair), |row: [f32; 12], scratch| {
-            let ([first, second], pose) = (&pair, pose(&row));
-            match distance {
-                Some(d) => first.within_of(second, pose, d, Budget::EXACT, scratch),
-                None => first.overlap(second, pose, Budget::EXACT, scratch),
-            }
+            pair[0].within_of(&pair[1], pose(&row), distance, Budget::EXACT, scratch)
         })
+    }
+
+    /// Whether the surfaces meet.
+    fn overlap<'py>(&self, asked: Asked<'py>, other: &Model) -> PyResult<Records<'py>> {
+        let both = self.both(other)?;
+        asked.each(both.entries(), |row: [f32; 12], scratch| both.overlap(pose(&row), scratch))
     }
 
     /// The pairs of triangles that meet or may meet.
     fn all_overlaps<'py>(&self, asked: Asked<'py>, other: &Model) -> PyResult<Lists<'py>> {
-        let pair = self.pair(other, "segment")?;
-        asked.lists(entries(&pair), TrianglePair::EMPTY, |row: [f32; 12], room, scratch| {
+        let both = self.both(other)?.knows_triangles()?;
+        asked.lists(both.entries(), TrianglePair::EMPTY, |row: [f32; 12], room, scratch| {
             let AllOverlaps { stored, dropped, .. } =
-                pair[0].all_overlaps(&pair[1], pose(&row), room, Budget::EXACT, scratch)?;
+                both.all_overlaps(pose(&row), room, scratch)?;
             Ok(Found { stored, dropped, is_complete: true })
         })
     }

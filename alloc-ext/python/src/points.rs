@@ -1,7 +1,6 @@
 //! Questions about points: of surfaces, and of curves and fences.
 
-use crate::error::missing;
-use crate::model::{BEST_FIRST, Model, budget};
+use crate::model::{BESIDE_HULL, BEST_FIRST, Model, budget};
 use crate::record::{Answer, Put};
 use crate::rows::{Asked, Found, Lists, Records, in_blocks};
 use meshsweep::bvh::{BATCH, closest_points_until_refused};
@@ -20,7 +19,11 @@ fn all(AllWithin { stored, dropped, .. }: AllWithin) -> Found {
 
 /// Scratch memory that a structure is asked with.
 fn entries(structure: &Distances<'_>) -> usize {
-    let more = if matches!(structure, Distances::Curve(_)) { BEST_FIRST } else { 0 };
+    let more = match structure {
+        Distances::Curve(_) => BEST_FIRST,
+        Distances::Hull(_) => BESIDE_HULL,
+        _ => 0,
+    };
     structure.scratch_entries() + more
 }
 
@@ -151,7 +154,13 @@ impl Model {
 
     /// Distance, side and gradient by the distance field.
     fn field<'py>(&self, asked: Asked<'py>) -> PyResult<Records<'py>> {
-        let field = self.blob().sdf().map_err(|_| missing("distance field", "sdf"))?;
+        let field = self.field_alone()?;
         asked.each(0, |point, _| field.distance_and_gradient(point))
+    }
+
+    /// A verdict by the distance field alone. Rows have a point and a distance.
+    fn field_within<'py>(&self, asked: Asked<'py>) -> PyResult<Records<'py>> {
+        let field = self.field_alone()?;
+        asked.each(0, |[x, y, z, distance], _| field.within([x, y, z], distance))
     }
 }

@@ -3,7 +3,7 @@
 
 use meshsweep::distances::{AnyWithin, Closest, Element};
 use meshsweep_core::{
-    CurveNeighbor, CurveSegment, CurveSignedDistance, Decided, DistanceBounds, Ended,
+    ClosestPoint, CurveNeighbor, CurveSegment, CurveSignedDistance, Decided, DistanceBounds, Ended,
     FieldDistance, FirstHit, Interval, Neighbor, NodePair, PairContact, PairDistance, Penetration,
     Relation, Separation, Side, SignedBounds, SignedDistance, SolidDistance, TriangleHit,
     TrianglePair, TriboxBound, Undecided, Verdict, WindingNumber, Work,
@@ -128,6 +128,10 @@ impl<A: Answer> Answer for Vec<A> {
     }
 }
 
+/// The number of a triangle.
+#[derive(Clone, Copy)]
+pub struct Triangle(pub u32);
+
 /// How far a segment is clear.
 pub struct Clipped(pub TriboxBound);
 
@@ -164,6 +168,12 @@ records! {
     // And whether it is of curves.
     (AnyWithin, bool): |found, put| put.verdict(found.0.verdict).element(found.0.element, found.1)
         .end_of(found.0.verdict, found.0.work);
+    // Of one of a row's closest triangles: none of them is unknown.
+    ClosestPoint: |near, put| put.interval(near.distance).floats(&near.point)
+        .number(near.triangle);
+    Triangle: |found, put| put.number(Some(found.0));
+    // A verdict without a search.
+    Verdict: |found, put| put.verdict(*found).end_of(*found, Work::NONE);
     Decided<u32>: |found, put| put.verdict(found.verdict).number(found.witness)
         .end_of(found.verdict, found.work);
     Decided<[u32; 2]>: |found, put| put.verdict(found.verdict).numbers(found.witness)

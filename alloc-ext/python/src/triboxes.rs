@@ -5,11 +5,10 @@ use crate::error::missing;
 use crate::model::{Model, budget};
 use crate::pairs::pose;
 use crate::record::Clipped;
+use crate::rounding::{Way, moved};
 use crate::rows::{Asked, Found, Lists, Records};
-use crate::segments::{ends, moved, norm};
-use meshsweep_core::{
-    Budget, Ended, NodePair, QueryError, ScratchEntry, TriboxBound, TriboxCandidates, Triboxes,
-};
+use crate::segments::ends;
+use meshsweep_core::{Budget, Ended, NodePair, TriboxCandidates, Triboxes};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -23,44 +22,6 @@ pub struct Geometry<'py> {
     frame: [[f32; 3]; 3],
     is_solid: bool,
     distance: Option<f32>,
-}
-
-/// Balls that are laid along a segment at most.
-const MOST_BALLS: usize = 64;
-
-/// The bound of a segment that is clear, as it is of the segment before it was rounded: by balls
-/// along it, each as large as is proved clear.
-fn as_given(
-    triboxes: &Triboxes<'_>,
-    row: &[f32; 8],
-    mut clear: TriboxBound,
-    budget: Budget,
-    scratch: &mut [ScratchEntry],
-) -> Result<TriboxBound, QueryError> {
-    let [a, b] = ends(row).map(|end| end.map(f64::from));
-    let length = norm(core::array::from_fn(|k| b[k] - a[k]));
-    clear.ended = Ended::Resolution;
-    let mut until = 0.0;
-    for _ in 0..MOST_BALLS {
-        let at: [f64; 3] = core::array::from_fn(|k| a[k] + until * (b[k] - a[k]));
-        let centre = at.map(|x| x as f32);
-        let off = norm(core::array::from_fn(|k| at[k] - f64::from(centre[k])));
-        let near = triboxes.distance(centre, budget, scratch)?;
-        (clear.node, clear.work) = (near.node, clear.work.and(near.work));
-        // Of the sums in double precision.
-        let rounding = 1e-12 * (norm(a) + norm(b));
-        let free = f64::from(near.lower) - off - moved(row) - rounding;
-        if free <= 0.0 {
-            break;
-        }
-        if free >= (1.0 - until) * length {
-            (clear.node, clear.ended) = (None, Ended::Exact);
-            return Ok(clear);
-        }
-        until += free / length;
-    }
-    clear.lower = (until as f32).next_down().max(0.0);
-    Ok(clear)
 }
 
 impl Model {
@@ -111,11 +72,21 @@ impl Model {
         let (triboxes, budget) = (self.stored_triboxes()?, budget((0.0, 0.0, steps)));
         asked.each(triboxes.scratch_entries(), |row: [f32; 8], scratch| {
             let [a, b] = ends(&row);
-            let found = triboxes.clip(a, b, budget, scratch)?;
-            Ok(Clipped(match found.lower == f32::INFINITY && moved(&row) > 0.0 {
-                true => as_given(&triboxes, &row, found, budget, scratch)?,
-                false => found,
-            }))
+            let mut found = triboxes.clip(a, b, budget, scratch)?;
+            if found.lower == f32::INFINITY && moved(&row) > 0.0 {
+                let mut last = None;
+                let (part, work) = Way::of_segment([a, b], moved(&row)).cleared(|centre| {
+                    let near = triboxes.distance(centre, budget, scratch)?;
+                    last = near.node;
+                    Ok((near.lower, near.work))
+                })?;
+                found.work = found.work.and(work);
+                if part < 1.0 {
+                    (found.node, found.ended) = (last, Ended::Resolution);
+                    found.lower = (part as f32).next_down().max(0.0);
+                }
+            }
+            Ok(Clipped(found))
         })
     }
 

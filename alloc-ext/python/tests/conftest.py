@@ -74,3 +74,17 @@ def orientation(a, b, c, d):
         + u[2] * (v[0] * w[1] - v[1] * w[0])
     )
     return (volume > 0) - (volume < 0)
+
+
+def passes(p, q, triangle):
+    """Whether a segment passes properly through a triangle: exact."""
+    if orientation(*triangle, p) * orientation(*triangle, q) >= 0:
+        return False
+    around = {orientation(p, q, triangle[i], triangle[(i + 1) % 3]) for i in range(3)}
+    return len(around) == 1 and 0 not in around
+
+
+def crosses(first, second):
+    """Whether an edge of one triangle passes properly through the other: exact."""
+    both = [(first, second), (second, first)]
+    return any(passes(a[k], a[(k + 1) % 3], b) for a, b in both for k in range(3))

@@ -2,6 +2,7 @@
 
 import meshsweep
 import numpy as np
+import pytest
 
 MASK = (1 << 64) - 1
 
@@ -56,16 +57,30 @@ def points(model: meshsweep.Model, kind: int) -> np.ndarray:
     return np.array([stream.far(bounds) for _ in range(512)], np.float32)
 
 
-def test_closest_points_have_the_bits_of_the_boards(fixtures):
-    model = meshsweep.load(fixtures / "groove.msw")
-    found = model.closest_point(points(model, 2))
+def hash_of_closest(found: np.recarray) -> str:
     answers = [
         np.array([near.lower, near.upper, *near.point], "<f4").tobytes()
         + int(near.triangle).to_bytes(4, "little")
         + int(near.ended).to_bytes(4, "little")
         for near in found
     ]
-    assert hash_of(answers) == committed(fixtures, "groove.msw closest_far")
+    return hash_of(answers)
+
+
+@pytest.mark.parametrize("blob", ["groove.msw", "bracket.msw"])
+def test_closest_points_have_the_bits_of_the_boards(fixtures, blob):
+    model = meshsweep.load(fixtures / blob)
+    found = hash_of_closest(model.closest_point(points(model, 2)))
+    assert found == committed(fixtures, f"{blob} closest_far")
+
+
+def test_key_frames_have_the_bits_of_the_boards(fixtures):
+    model, stream = meshsweep.load(fixtures / "bend.msw"), Stream(32)
+    bounds = np.array(model._facts["stored_bounds"], np.float32)
+    stream.far(bounds)
+    asked = np.array([[abs(stream.signed_unit()), *stream.far(bounds)] for _ in range(512)])
+    found = model.closest_point(asked[:, 1:], frame=asked[:, 0])
+    assert hash_of_closest(found) == committed(fixtures, "bend.msw frame")
 
 
 def test_fields_have_the_bits_of_the_boards(fixtures):

@@ -131,3 +131,22 @@ def test_tight_hulls_and_triboxes_take_their_options():
         meshsweep.build(BALL, "tight", tight_for="winding")
     part = meshsweep.build(BALL, "triboxes", extrema=True, triboxes=8)
     assert 1 <= len(part.triboxes().node) <= 8
+
+
+@pytest.mark.parametrize("kind", ["signed", "solid", "surface"])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_verdicts_of_the_field_alone_hold(kind, dtype):
+    points, limit = around().astype(dtype), 0.3
+    found = model(kind).field_within(points, limit)
+    is_near = distances(points, *BALL).min(axis=1) <= limit
+    # The mesh lies between two spheres.
+    is_inside = np.linalg.norm(points, axis=1) < 0.8
+    if kind == "solid":
+        is_near |= is_inside
+    assert not (found.verdict == Verdict.NO)[is_near].any()
+    assert not (found.verdict == Verdict.YES)[~is_near].any()
+    decided = found.verdict != Verdict.UNDECIDED
+    assert decided[~is_inside].mean() > 0.9 and (found.work == 0).all()
+    assert ((found.ended == meshsweep.Ended.EXACT) == decided).all()
+    with pytest.raises(meshsweep.NotServedError, match="sdf"):
+        meshsweep.build(BALL).field_within(points, limit)

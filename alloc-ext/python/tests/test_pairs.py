@@ -5,7 +5,7 @@ from fractions import Fraction
 import meshsweep
 import numpy as np
 import pytest
-from conftest import distances, orientation, sphere
+from conftest import crosses, distances, sphere
 from meshsweep import Relation, Verdict
 
 
@@ -17,18 +17,6 @@ def poses_at(places):
     poses = np.tile(np.eye(4), (len(places), 1, 1))
     poses[:, :3, 3] = places
     return poses
-
-
-def crosses(first, second):
-    """Whether an edge of one triangle passes properly through the other: exact."""
-    for one, other in [(first, second), (second, first)]:
-        for k in range(3):
-            p, q = one[k], one[(k + 1) % 3]
-            if orientation(*other, p) * orientation(*other, q) < 0:
-                around = {orientation(p, q, other[i], other[(i + 1) % 3]) for i in range(3)}
-                if len(around) == 1 and 0 not in around:
-                    return True
-    return False
 
 
 def exact(vertices, triangles):

@@ -1,5 +1,6 @@
 """What is proved is proved of the segment, ray or tool as it was given, in double precision."""
 
+import functools
 from fractions import Fraction
 
 import meshsweep
@@ -18,6 +19,16 @@ FACES += [[1, 3, 5], [3, 7, 5], [3, 2, 7], [2, 6, 7], [2, 0, 6], [0, 4, 6]]
 def part():
     """A box where single precision has steps of 0.0005."""
     return meshsweep.build((CORNERS + LOW, FACES), "segment,triboxes,winding", vertex_bits=32)
+
+
+@pytest.fixture(scope="module")
+def hull(tmp_path_factory):
+    """The same box by its hull hierarchy, which deforms: at frame 1 it is larger."""
+    file = tmp_path_factory.mktemp("frames") / "larger.obj"
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in (CORNERS * [1, 1, 2] + LOW).tolist()]
+    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in FACES]
+    file.write_text("\n".join(lines))
+    return meshsweep.build((CORNERS + LOW, FACES), "hull,deform", frames=[file])
 
 
 def enters(a, way, until=None):
@@ -51,7 +62,7 @@ def grazing(count=300):
     return place - way * rng.uniform(1, 2, (count, 1)), place + way * rng.uniform(1, 3, (count, 1))
 
 
-def test_a_segment_that_hits_is_not_called_clear_because_it_was_rounded(part):
+def test_a_segment_that_hits_is_not_called_clear_because_it_was_rounded(part, hull):
     a = np.array([4096.99941532546, 0.5858999871903519, 2.0062041501019077])
     b = np.array([4097.000736725505, 0.5858999871903519, -1.0])
     assert hits(a[None], b[None])
@@ -62,7 +73,9 @@ def test_a_segment_that_hits_is_not_called_clear_because_it_was_rounded(part):
     assert 50 < sum(is_hit) < 250
     rounded = part.first_hit(starts.astype(np.float32), ends.astype(np.float32)).verdict
     assert (rounded[is_hit] == Verdict.NO).any()
-    for ask in [part.first_hit, part.tribox_first_hit, part.first_contact]:
+    at_rest = functools.partial(hull.first_hit, frame=0.0)
+    others = [hull.first_hit, at_rest]
+    for ask in [part.first_hit, part.tribox_first_hit, part.first_contact, *others]:
         found = ask(starts, ends)
         assert (found.verdict[is_hit] != Verdict.NO).all()
         # One that passes at some distance is clear, and what is single precision is as before.
@@ -78,7 +91,9 @@ def test_a_segment_that_hits_is_not_called_clear_because_it_was_rounded(part):
     assert (far.verdict != Verdict.YES).all()
 
 
-def test_a_ray_that_hits_is_not_called_clear_because_it_was_rounded(part):
+@pytest.mark.parametrize("kind", ["part", "hull"])
+def test_a_ray_that_hits_is_not_called_clear_because_it_was_rounded(kind, request):
+    part = request.getfixturevalue(kind)
     starts, ends = grazing()
     ways = (ends - starts) * np.random.default_rng(2).uniform(1e-3, 1e3, (len(starts), 1))
     is_hit = np.array([enters(*row) for row in zip(starts, ways.tolist(), strict=True)])

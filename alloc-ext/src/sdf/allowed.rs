@@ -3,9 +3,9 @@
 use super::domain::Domain;
 use meshsweep_core::SdfKind;
 
-/// What the questions in f32 add to a width, units: three on each side of a point on an upper face
-/// of the field, which is asked as one beyond it, and less than one in each end for rounding.
-const OF_F32: f64 = 8.0;
+/// What the questions in f32 add to a width, units. A point on an upper face of the field is asked
+/// as one beyond it, which adds three on each side. Rounding adds less than one to each end.
+const WIDENED_BY_F32: f64 = 8.0;
 
 /// A width that is allowed everywhere, and how it grows with the distance.
 #[derive(Clone, Copy, Debug)]
@@ -39,5 +39,5 @@ impl Allowed {
 /// signed.
 pub(super) fn widest(kind: SdfKind, [_, most]: [f64; 2], width: f64) -> f64 {
     let cut = if kind == SdfKind::Signed { 0.0 } else { most.min(0.0) };
-    (width + cut).max(0.0) + OF_F32
+    (width + cut).max(0.0) + WIDENED_BY_F32
 }

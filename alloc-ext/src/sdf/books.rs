@@ -56,8 +56,10 @@ pub(super) fn book<const N: usize>(errors: &[u32], weights: &[f64]) -> [u32; N] 
     book
 }
 
-/// The place of the least entry of an ascending book that is not below an error.
+/// The index of the least entry of an ascending book that is not below an error. The last entry
+/// must not be below it: neither [`book`] nor `Books::hold` leaves an error above.
 pub(super) fn entry<const N: usize>(book: &[u32; N], error: u32) -> usize {
+    debug_assert!(error <= book[N - 1], "{error} is above all of {book:?}");
     book.partition_point(|&of| of < error).min(N - 1)
 }
 

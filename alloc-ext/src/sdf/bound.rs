@@ -77,8 +77,8 @@ pub(super) fn most(linear: &Linear, region: &Region, nears: &[Near], enough: f64
         if best <= enough {
             break;
         }
-        // Its bound is the least at the corner where the mean is worst.
-        let at = |near: &Near| near.distance + near.normal.dot(corners[corner]);
+        // At the worst corner, the triangle of the least lower bound.
+        let at = |near: &Near| near.height + near.normal.dot(corners[corner]);
         let facets = nears.iter().filter(|near| near.facet().is_some());
         let Some(other) = facets.min_by(|a, b| at(a).total_cmp(&at(b))) else { break };
         let apart = normal - other.normal;
@@ -119,7 +119,7 @@ pub(super) fn flat(
     let ball = region.ball().filter(|_| region.is_open)?;
     // Groups in the ball are open.
     let within = || {
-        let of = |near: &'_ &Near| near.distance <= ball + MARGIN;
+        let of = |near: &'_ &Near| near.height <= ball + MARGIN;
         let facet = |near: &Near| Some((*near, facets.facet(near.facet()?)));
         nears.iter().filter(of).filter_map(facet)
     };

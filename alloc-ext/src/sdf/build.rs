@@ -89,7 +89,7 @@ struct Candidate<'a> {
 /// Proves a field; `None` if the errors do not fit their numbers.
 type Prove<'a> = Box<dyn FnOnce(Watch<'_>) -> Result<Option<Field>, BuildError> + 'a>;
 
-/// A field that is no wider than this times another before its proof is taken without that proof.
+/// The second draft is proved only if the proved field's mean width is above this times the draft's.
 const ENOUGH: f64 = 1.05;
 
 impl Work<'_> {

@@ -11,16 +11,14 @@ use super::function::Trilinear;
 use super::prove::Errors;
 use super::samples::{Sample, Samples};
 use super::truth::{Side, Truth};
-use super::widths::{NEAR, Widths, weight};
+use super::widths::{LEAST_WEIGHT, NEAR, Widths, weight};
 use glam::DVec3;
 use meshsweep_core::SdfKind;
 use meshsweep_core::internal::sdf::format::layout::{MOST_BASE, MOST_STEP, value_loss};
 use rayon::prelude::*;
 
-/// Weight of a cell without questions.
-const LEAST_WEIGHT: f64 = 1e-3;
-
-/// The power of the allowed width that a cell takes: its weight.
+/// The cost of a cell is its part of the allowed width to this power, so that the widest cells
+/// count most.
 const SHARPNESS: i32 = 8;
 
 /// Most rounds of moves.
@@ -45,6 +43,14 @@ struct Limits {
     most: Vec<f32>,
 }
 
+impl Limits {
+    fn of(samples: impl Iterator<Item = Sample>, kind: SdfKind) -> Self {
+        let limits = samples.map(|sample| sample.limits(kind));
+        let (least, most) = limits.map(|[least, most]| (least, most)).unzip();
+        Self { least, most }
+    }
+}
+
 /// Distance at a corner.
 fn value(sample: Sample, kind: SdfKind, deepest: f64) -> f64 {
     let [low, high] = sample.limits(kind).map(f64::from);
@@ -63,14 +69,14 @@ impl Codes {
         allowed: Option<Allowed>,
     ) -> Self {
         let kind = truth.kind;
-        // Farther inside, a solid field is only to be below 0.
+        // Deeper inside, a solid field only has to stay below 0.
         let deepest = 0.5 * CELL * 3f64.sqrt();
         let values: Vec<f64> = (0..domain.corner_count())
             .map(|number| {
                 let at = domain.corner(number);
                 let bit = |axis: usize| usize::from(at[axis] == domain.cells[axis]);
                 let [x, y, z] = at;
-                let cell = domain.cell_number([x - bit(0), y - bit(1), z - bit(2)]);
+                let cell = [x - bit(0), y - bit(1), z - bit(2)];
                 value(samples.corner(cell, bit(0) | bit(1) << 1 | bit(2) << 2), kind, deepest)
             })
             .collect();
@@ -80,11 +86,13 @@ impl Codes {
         let step = ((most - base) / 255.0).ceil().clamp(1.0, f64::from(MOST_STEP));
         let codes = values.iter().map(|value| ((value - base) / step).round() as u8).collect();
         let near = NEAR * domain.diagonal;
-        let weight_of = |samples: &Vec<Sample>| {
-            let sum: f64 = samples.iter().map(|&sample| weight(sample, kind, near)).sum();
-            sum / samples.len() as f64 + LEAST_WEIGHT
+        let in_cell = (samples.steps + 1).pow(3) as f64;
+        let weight_of = |cell: usize| {
+            let of_cell = samples.cell(domain.cell(cell));
+            let sum: f64 = of_cell.map(|sample| weight(sample, kind, near)).sum();
+            sum / in_cell + LEAST_WEIGHT
         };
-        let weights = samples.cells.iter().map(weight_of).collect();
+        let weights = (0..domain.cell_count()).map(weight_of).collect();
         let mut codes = Self { base: base as i32, step: step as u16, codes, weights };
         codes.narrow(domain, samples, kind, allowed);
         if let Some(allowed) = allowed {
@@ -124,12 +132,8 @@ impl Codes {
         kind: SdfKind,
         allowed: Option<Allowed>,
     ) {
-        let of = |cell: &Vec<Sample>| {
-            let limits = cell.iter().map(|sample| sample.limits(kind));
-            let (least, most) = limits.map(|[least, most]| (least, most)).unzip();
-            Limits { least, most }
-        };
-        let limits: Vec<Limits> = samples.cells.par_iter().map(of).collect();
+        let of = |cell: usize| Limits::of(samples.cell(domain.cell(cell)), kind);
+        let limits: Vec<Limits> = (0..domain.cell_count()).into_par_iter().map(of).collect();
         for _ in 0..ROUNDS {
             let mut moved = 0;
             for parity in 0..8 {
@@ -209,9 +213,8 @@ impl Codes {
 
     /// The errors that a cell's samples need.
     pub fn errors(&self, domain: &Domain, samples: &Samples, cell: usize, kind: SdfKind) -> Errors {
-        let limits = samples.cells[cell].iter().map(|sample| sample.limits(kind));
-        let (least, most) = limits.map(|[least, most]| (least, most)).unzip();
-        errors(&self.corners(domain, cell), &Limits { least, most }, samples.steps)
+        let limits = Limits::of(samples.cell(domain.cell(cell)), kind);
+        errors(&self.corners(domain, cell), &limits, samples.steps)
     }
 }
 
@@ -221,7 +224,7 @@ fn lowest(corners: &[f64; 8], errors: Errors) -> [f64; 2] {
     corners.iter().fold(first, of_corners).map(|value| value - errors.low)
 }
 
-/// What a cell counts where a width is allowed.
+/// The cost of a cell where widths are limited: see [`SHARPNESS`].
 fn taken(allowed: Allowed, corners: &[f64; 8], errors: Errors) -> f64 {
     let width = errors.low + errors.high;
     allowed.taken(lowest(corners, errors), width).powi(SHARPNESS)
@@ -269,8 +272,9 @@ pub(super) fn widths(
     let corners = codes.corners(domain, cell);
     let (side, step) = (samples.steps + 1, CELL / samples.steps as f64);
     let first = DVec3::from(domain.cell(cell).map(|at| at as f64)) * CELL;
+    let of_cell: Vec<Sample> = samples.cell(domain.cell(cell)).collect();
     values(&corners, samples.steps, |start, from, rise| {
-        for (at, &sample) in samples.cells[cell][start..=start + samples.steps].iter().enumerate() {
+        for (at, &sample) in of_cell[start..=start + samples.steps].iter().enumerate() {
             let (row, value) = (start / side, f64::from(from + rise * at as f32));
             let place = [at, row % side, row / side].map(|at| at as f64 * step);
             if !domain.is_asked(first + DVec3::from(place)) {

@@ -41,17 +41,31 @@ pub(super) fn bytes([x, y, z]: [usize; 3]) -> usize {
     SDF_BYTES + (x + 1) * (y + 1) * (z + 1) + x * y * z
 }
 
+/// Index along each axis of an item of a grid with so many along each axis, x fastest.
+pub(super) fn index_of(number: usize, [x, y, _]: [usize; 3]) -> [usize; 3] {
+    [number % x, number / x % y, number / (x * y)]
+}
+
+/// Number of the item at an index along each axis.
+pub(super) fn number_of([i, j, k]: [usize; 3], [x, y, _]: [usize; 3]) -> usize {
+    i + x * (j + y * k)
+}
+
 /// Cells of a side along each axis that hold a box.
 fn cells(size: DVec3, side: f64) -> [usize; 3] {
     size.to_array().map(|size| (size / side).ceil().max(1.0) as usize)
 }
 
-/// Most root cells along the longest side of a box: the fewer bytes, the fewer of them.
-const ROOTS: [usize; 3] = [5, 2, 1];
+/// Most root cells along the longest side of a box. With few bytes the smaller ones are taken.
+const ROOTS_BY_BYTES: [usize; 3] = [5, 2, 1];
 
-/// The side of a tree's root cells that fills least beside a box: such that a side of the box is a
-/// whole number of them. The longest side of the box has `most` at most, and of five or more at
-/// least two less. `None` if all have more than so many root cells.
+/// Part of the volume that a side of root cells must save to replace one that was found before.
+const SAVED: f64 = 0.02;
+
+/// The side of a tree's root cells that wastes the least volume about a box. Some side of the box
+/// is a whole number of them. The longest side has at most `most`. If `most` is five or more it has
+/// at least `most` - 2: larger cells would be halved too often. `None` if each side makes more than
+/// `most_count` root cells.
 fn root_side_of(size: DVec3, most: usize, most_count: usize) -> Option<f64> {
     let longest = size.max_element();
     let mut best = None;
@@ -64,19 +78,22 @@ fn root_side_of(size: DVec3, most: usize, most_count: usize) -> Option<f64> {
             continue;
         }
         let volume = count as f64 * (side / longest).powi(3);
-        if best.is_none_or(|(least, _)| volume < 0.98 * least) {
+        if best.is_none_or(|(least, _)| volume < (1.0 - SAVED) * least) {
             best = Some((volume, side * (1.0 + 1e-9)));
         }
     }
     best.map(|(_, side)| side)
 }
 
-/// The same with as many root cells along the longest side as have room in the bytes: fewer are
-/// halved too seldom.
+/// Entries for each root cell that the bytes must have room for: with fewer, root cells are hardly
+/// halved.
+const ENTRIES_OF_ROOT: usize = 8;
+
+/// The same with the most root cells along the longest side that the bytes have room for.
 fn root_side(size: DVec3, most_bytes: usize) -> f64 {
-    let room = most_bytes / (8 * tree::ENTRY_BYTES);
+    let room = most_bytes / (ENTRIES_OF_ROOT * tree::ENTRY_BYTES);
     let count = |most: usize| if most > 1 { room } else { usize::MAX };
-    let side = ROOTS.into_iter().find_map(|most| root_side_of(size, most, count(most)));
+    let side = ROOTS_BY_BYTES.into_iter().find_map(|most| root_side_of(size, most, count(most)));
     side.unwrap_or(size.max_element())
 }
 
@@ -207,25 +224,21 @@ impl Domain {
         self.cells.iter().map(|n| n + 1).product()
     }
 
-    /// Side of a cell along each axis.
+    /// Index of a cell along each axis, from its number.
     pub fn cell(&self, number: usize) -> [usize; 3] {
-        let [x, y, _] = self.cells;
-        [number % x, number / x % y, number / (x * y)]
+        index_of(number, self.cells)
     }
 
-    /// Side of a corner along each axis.
+    /// Index of a corner along each axis, from its number.
     pub fn corner(&self, number: usize) -> [usize; 3] {
-        let [x, y, _] = self.cells.map(|n| n + 1);
-        [number % x, number / x % y, number / (x * y)]
+        index_of(number, self.cells.map(|n| n + 1))
     }
 
-    pub fn cell_number(&self, [i, j, k]: [usize; 3]) -> usize {
-        let [x, y, _] = self.cells;
-        i + x * (j + y * k)
+    pub fn cell_number(&self, index: [usize; 3]) -> usize {
+        number_of(index, self.cells)
     }
 
-    pub fn corner_number(&self, [i, j, k]: [usize; 3]) -> usize {
-        let [x, y, _] = self.cells.map(|n| n + 1);
-        i + x * (j + y * k)
+    pub fn corner_number(&self, index: [usize; 3]) -> usize {
+        number_of(index, self.cells.map(|n| n + 1))
     }
 }

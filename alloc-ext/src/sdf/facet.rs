@@ -5,14 +5,14 @@ use glam::DVec3;
 /// Distance by which a coordinate in the field's frame may be off, units: see [`super::domain`].
 const OFF: f64 = 1.0 / (1u64 << 32) as f64;
 
-/// A triangle, or a wire.
+/// A triangle, or what a triangle without an area leaves: a segment or a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facet {
     pub at: [DVec3; 3],
     /// Unit normal; 0 without an area.
     pub normal: DVec3,
-    /// Bound of the distance of the normal from that of the exact triangle. Infinite where there is
-    /// no telling.
+    /// Bound of the distance of the normal from that of the exact triangle. Infinite without an
+    /// area.
     pub doubt: f64,
     /// Whether the winding number is 0 in front of it and 1 behind it.
     pub tells_side: bool,
@@ -25,7 +25,8 @@ impl Facet {
         let cross = ab.cross(ac);
         let area = cross.length();
         let longest = ab.length().max(ac.length());
-        // Edges are off by twice the places' and by rounding, and so is the product of both.
+        // An edge is off by less than 3.5 OFF, so the product of two is by 7 OFF · longest. A unit
+        // vector is off by twice the part that its length is. Rounding is as much, of ε · longest.
         let doubt = 16.0 * longest * (OFF + longest * f64::EPSILON) / area;
         let is_sound = area > 0.0 && doubt < 0.5;
         let normal = if is_sound { cross / area } else { DVec3::ZERO };

@@ -208,7 +208,8 @@ impl<'a> Work<'a> {
         let body = section(domain, kind, codes, books).ok_or(self.too_wide())?;
         let has_doubt = |cell: &usize| {
             let is_in_doubt = |sample: &Sample| sample.side == Side::Undecided;
-            proofs[*cell].is_undecided || samples.cells[*cell].iter().any(is_in_doubt)
+            proofs[*cell].is_undecided
+                || samples.cell(domain.cell(*cell)).any(|sample| is_in_doubt(&sample))
         };
         let undecided = (0..domain.cell_count()).filter(has_doubt).count();
         let (cells, in_units) = (domain.cells, 1.0 / f64::from(domain.per_unit));

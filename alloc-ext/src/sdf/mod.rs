@@ -24,13 +24,15 @@
 //!
 //! *Where errors come from.* Samples tell the errors that a cell needs about. The books are made of
 //! them, with a little slack. Then the errors of the books are proved: rounding up to a book gives
-//! most cells more slack, which makes the proof short. A cell whose proof fails takes the next
-//! entry that holds what it needs. Nothing relies on samples.
+//! most cells more slack, which makes the proof short. A cell of a lattice whose proof fails takes
+//! the next entry that holds what it needs. A leaf is lowered by whole codes and gets the width
+//! that it needs, and the book of widths is made again. Nothing relies on samples.
 //!
-//! *One proof.* Both layouts are drafted, and the narrower is proved: a proof takes about half of
-//! the time. It widens the mean, in small fields by much. So the other is proved too if its draft
-//! is narrower by more than a twentieth. With this and with groups of triangles (`region`), a field
-//! of 16 KiB of the horse takes 0.55 of the processors' time that it took (*historical*).
+//! *One proof.* Both layouts are drafted, and the narrower draft is proved: a proof takes about half
+//! of the time. It widens the mean, in small fields by much. So the other draft is proved too if
+//! the proved field is wider than it by more than a twentieth. With this and with groups of
+//! triangles (`region`), a field of 16 KiB of the horse takes 0.55 of the processors' time that it
+//! took (*historical*).
 //!
 //! *Rounding.* All is computed in a frame whose unit is the field's. Lengths are below 2^20 there,
 //! so one margin (`region::MARGIN`) in that unit is enough for every mesh.

@@ -61,7 +61,8 @@ fn needed(
             let low = (-least(linear, region, nears)).min(to_zero());
             Errors { low, high: above() }
         }
-        // So near inside the input may be outside.
+        // The mesh holds this box inside, but the input may have it outside: the distance above
+        // counts too.
         (SdfKind::Solid, Some(Side::Inside))
             if truth.off > 0.0 && region.least <= region.radius + truth.off + MARGIN =>
         {
@@ -79,7 +80,7 @@ fn needed(
                 errors = Errors { low: errors.low.min(-least), high: errors.high.min(most) };
             }
             if !is_enough(&errors) {
-                // |s| = d.
+                // The side is not known, so the distance bounds both signs.
                 if errors.high > wanted.high {
                     errors.high = errors.high.min(above());
                 }
@@ -130,18 +131,19 @@ impl<'a, F: Function> Prover<'a, F> {
         prover.proof
     }
 
-    fn visit(&mut self, region: &mut Region, start: usize, whole: Option<Side>) {
+    fn visit(&mut self, region: &mut Region, start: usize, of_parent: Option<Side>) {
         self.proof.boxes += 1;
         let Self { truth, function, corner, nears, .. } = self;
-        let side = whole.or_else(|| {
-            let ties = nears[start..].iter().filter(|near| near.distance <= region.distance + TIE);
+        let side = of_parent.or_else(|| {
+            let ties = nears[start..].iter().filter(|near| near.height <= region.distance + TIE);
             (region.least > region.radius).then(|| truth.side(region.centre, ties.copied()))
         });
         let wanted = self.proof.errors;
         let is_enough = |found: &Errors| found.low <= wanted.low && found.high <= wanted.high;
         let linear = function.about(region.centre - *corner, region.half);
         let mut found = needed(truth, &linear, region, &nears[start..], side, wanted);
-        // Distances inside are negative.
+        // The function whose lower bound groups limit, and whether that bound fails. Distances
+        // inside are negative.
         let (towards, by_least): (_, fn(&Errors, &Errors) -> bool) = match (side, truth.kind) {
             (Some(Side::Outside), _) => (linear, |found, wanted| found.low > wanted.low),
             (Some(Side::Inside), SdfKind::Signed) => {

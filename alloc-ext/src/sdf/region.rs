@@ -58,7 +58,7 @@ pub(super) struct Near {
     /// Unit vector from there to the box's centre; of a group from the mean of its corners.
     pub normal: DVec3,
     /// Height of the box's centre over it along this vector: no more than its distance.
-    pub distance: f64,
+    pub height: f64,
 }
 
 impl Near {
@@ -72,7 +72,7 @@ impl Near {
     /// the same centre, beside the function's value there.
     #[inline]
     pub fn least(&self, gradient: DVec3, half: DVec3) -> f64 {
-        self.distance - (self.normal - gradient).abs().dot(half)
+        self.height - (self.normal - gradient).abs().dot(half)
     }
 }
 
@@ -88,7 +88,7 @@ pub(super) struct Region {
     pub point: DVec3,
     /// Its distance, rounded up.
     pub distance: f64,
-    /// No triangle is nearer to the centre.
+    /// No triangle is nearer to the centre. Groups that stay closed are farther than `distance`.
     pub least: f64,
     /// Whether triangles of the ball are kept.
     has_ball: bool,
@@ -251,23 +251,23 @@ impl Facets {
         let length = away.length();
         // On the triangle its own normal leads away from it.
         let normal = if length > TIE { away / length } else { of.normal };
-        let distance = -of.support(region.centre, normal);
-        region.least = region.least.min(distance - MARGIN);
-        let is_kept = region.reaches(normal, distance)
-            || region.ball().is_some_and(|radius| distance <= radius + TIE);
-        is_kept.then_some(Near { facet, point, normal, distance })
+        let height = -of.support(region.centre, normal);
+        region.least = region.least.min(height - MARGIN);
+        let is_kept = region.reaches(normal, height)
+            || region.ball().is_some_and(|radius| height <= radius + TIE);
+        is_kept.then_some(Near { facet, point, normal, height })
     }
 
     /// Appends a group of a box, or its triangles, if they are to be kept.
     fn keep_group(&self, region: &mut Region, facet: u32, nears: &mut Vec<Near>) {
-        let (normal, distance) = self.over_group(facet, region.centre);
-        if distance <= region.distance + TIE {
+        let (normal, height) = self.over_group(facet, region.centre);
+        if height <= region.distance + TIE {
             self.open(region, facet, nears);
             return;
         }
-        let is_in_ball = region.ball().is_some_and(|radius| distance <= radius + TIE);
-        if is_in_ball || region.reaches(normal, distance) {
-            nears.push(Near { facet, point: region.centre, normal, distance });
+        let is_in_ball = region.ball().is_some_and(|radius| height <= radius + TIE);
+        if is_in_ball || region.reaches(normal, height) {
+            nears.push(Near { facet, point: region.centre, normal, height });
         }
     }
 
@@ -314,25 +314,25 @@ impl Facets {
         let mut nearest = (whole.facet, whole.point);
         let mut square = (p - whole.point).length_squared();
         let mut least = square.sqrt();
-        let mut look = |facet: u32| {
-            let point = self.closest(facet, p);
-            let found = (p - point).length_squared();
-            if found < square {
-                (nearest, square) = ((facet, point), found);
+        let height = |near: &Near| near.height + near.normal.dot(moved);
+        let mut look = |near: &Near, least: &mut f64| {
+            let facets = match near.facet() {
+                Some(facet) => facet..facet + 1,
+                None if self.over_group(near.facet, p).1 < *least => self.members(near.facet),
+                None => return,
+            };
+            for facet in facets {
+                let point = self.closest(facet, p);
+                let found = (p - point).length_squared();
+                if found < square {
+                    (nearest, square) = ((facet, point), found);
+                    *least = square.sqrt();
+                }
             }
-            square
         };
         for near in nears {
-            if near.distance + near.normal.dot(moved) >= least {
-                continue;
-            }
-            match near.facet() {
-                Some(facet) => least = look(facet).sqrt(),
-                None => {
-                    if self.over_group(near.facet, p).1 < least {
-                        self.members(near.facet).for_each(|facet| least = look(facet).sqrt());
-                    }
-                }
+            if height(near) < least {
+                look(near, &mut least);
             }
         }
         nearest
@@ -358,7 +358,7 @@ impl Facets {
         let ball = region.ball().unwrap_or(f64::NEG_INFINITY) + TIE;
         for number in range {
             let near = nears[number];
-            let height = near.distance + near.normal.dot(moved);
+            let height = near.height + near.normal.dot(moved);
             if height > ball && !region.reaches(near.normal, height) {
                 continue;
             }
@@ -396,7 +396,7 @@ impl Facets {
     /// Opens the groups in the ball, if they are few: of the others the surface is not flat.
     fn open_ball(&self, region: &mut Region, start: usize, nears: &mut Vec<Near>) {
         let Some(ball) = region.ball() else { return };
-        let is_in = |near: &Near| near.distance <= ball + TIE;
+        let is_in = |near: &Near| near.height <= ball + TIE;
         let is_group = |near: &&Near| near.facet().is_none() && is_in(near);
         region.is_open = nears[start..].iter().filter(is_group).count() <= MOST_OPENED;
         if region.is_open {

@@ -1,7 +1,7 @@
 //! Distances at the places of a lattice in each cell. They choose codes and the errors to prove;
 //! nothing relies on them.
 
-use super::domain::{CELL, Domain};
+use super::domain::{CELL, Domain, index_of, number_of};
 use super::region::{Near, TIE};
 use super::truth::{Side, Truth};
 use crate::error::BuildError;
@@ -32,16 +32,18 @@ impl Sample {
     }
 }
 
-/// Samples of all cells.
+/// Samples of all cells. Neighbours share those of their common face.
 #[derive(Debug)]
 pub(super) struct Samples {
     /// Steps along each side of a cell.
     pub steps: usize,
-    /// Per cell its samples, x fastest.
-    pub cells: Vec<Vec<Sample>>,
+    /// Places along each axis.
+    places: [usize; 3],
+    /// Of each place, x fastest.
+    all: Vec<Sample>,
 }
 
-/// Cells of a field with the most samples.
+/// Up to so many cells have 6 steps along each side, more have 4.
 const FEW_CELLS: usize = 20_000;
 
 impl Samples {
@@ -51,26 +53,78 @@ impl Samples {
     /// [`BuildError::Cancelled`].
     pub fn of(truth: &Truth<'_>, domain: &Domain, watch: Watch<'_>) -> Result<Self, BuildError> {
         let steps = if domain.cell_count() <= FEW_CELLS { 6 } else { 4 };
-        let cells = watch.map(domain.cell_count(), |cell| {
-            let corner = DVec3::from(domain.cell(cell).map(|at| at as f64)) * CELL;
-            of_box(truth, corner, DVec3::splat(CELL), steps)
-        })?;
-        Ok(Self { steps, cells })
+        let all = of_boxes(truth, domain.cells, CELL, steps, watch)?;
+        Ok(Self { steps, places: domain.cells.map(|cells| steps * cells + 1), all })
+    }
+
+    /// Where a place of a cell stands.
+    fn at(&self, cell: [usize; 3], place: [usize; 3]) -> usize {
+        let place = [0, 1, 2].map(|axis| self.steps * cell[axis] + place[axis]);
+        number_of(place, self.places)
+    }
+
+    /// The samples of a cell, x fastest.
+    pub fn cell(&self, cell: [usize; 3]) -> impl Iterator<Item = Sample> + '_ {
+        let side = side_of(self.steps);
+        let row = move |row: usize| {
+            let start = self.at(cell, [0, row % side, row / side]);
+            self.all[start..start + side].iter().copied()
+        };
+        (0..side * side).flat_map(row)
     }
 
     /// The sample at a corner of a cell, by its bits x, y, z.
-    pub fn corner(&self, cell: usize, corner: usize) -> Sample {
-        let (steps, side) = (self.steps, side_of(self.steps));
-        let at = |bit: usize| steps * (corner >> bit & 1);
-        self.cells[cell][at(0) + side * (at(1) + side * at(2))]
+    pub fn corner(&self, cell: [usize; 3], corner: usize) -> Sample {
+        let at = |bit: usize| self.steps * (corner >> bit & 1);
+        self.all[self.at(cell, [at(0), at(1), at(2)])]
     }
+}
+
+/// The samples of a field of so many cubes with this side, each of `steps` steps: each place once,
+/// x fastest.
+///
+/// # Errors
+/// [`BuildError::Cancelled`].
+pub(super) fn of_boxes(
+    truth: &Truth<'_>,
+    cubes: [usize; 3],
+    side: f64,
+    steps: usize,
+    watch: Watch<'_>,
+) -> Result<Vec<Sample>, BuildError> {
+    // The upper faces of a cube are the next one's.
+    let places =
+        |cube: [usize; 3]| [0, 1, 2].map(|axis| steps + usize::from(cube[axis] + 1 == cubes[axis]));
+    let found = watch.map(cubes.iter().product(), |number| {
+        let cube = index_of(number, cubes);
+        let corner = DVec3::from(cube.map(|at| at as f64)) * side;
+        of_places(truth, [corner, DVec3::splat(side)], steps, places(cube))
+    })?;
+    let all = cubes.map(|cubes| cubes * steps + 1);
+    let sample = |number: usize| {
+        let at = index_of(number, all);
+        let cube = [0, 1, 2].map(|axis| (at[axis] / steps).min(cubes[axis] - 1));
+        let within = [0, 1, 2].map(|axis| at[axis] - steps * cube[axis]);
+        found[number_of(cube, cubes)][number_of(within, places(cube))]
+    };
+    Ok((0..all.iter().product()).map(sample).collect())
 }
 
 /// The samples of a box with this least corner and these sides, x fastest: an even number of steps
 /// along each side.
-pub(super) fn of_box(truth: &Truth<'_>, corner: DVec3, sides: DVec3, steps: usize) -> Vec<Sample> {
+pub(super) fn of_box(truth: &Truth<'_>, boxed: [DVec3; 2], steps: usize) -> Vec<Sample> {
+    of_places(truth, boxed, steps, [side_of(steps); 3])
+}
+
+/// The same of so many places along each side: one for each step, and maybe the last.
+fn of_places(
+    truth: &Truth<'_>,
+    [corner, sides]: [DVec3; 2],
+    steps: usize,
+    places: [usize; 3],
+) -> Vec<Sample> {
     let none = Sample { distance: 0.0, side: Side::Outside };
-    let mut samples = vec![none; side_of(steps).pow(3)];
+    let mut samples = vec![none; places.iter().product()];
     let mut nears: Vec<Near> = Vec::new();
     let half = 0.5 * sides;
     let whole = truth.facets.gather([corner + half, half], false, &mut nears);
@@ -79,20 +133,20 @@ pub(super) fn of_box(truth: &Truth<'_>, corner: DVec3, sides: DVec3, steps: usiz
     let blocks = steps / 2;
     let step = sides / steps as f64;
     for block in 0..blocks * blocks * blocks {
-        let block = [block % blocks, block / blocks % blocks, block / (blocks * blocks)];
+        let block = index_of(block, [blocks; 3]);
         let middle = DVec3::from(block.map(|at| (2 * at + 1) as f64)) * step;
         let boxed = [corner + middle, step];
         let region = truth.facets.narrow(&whole, 0..count, boxed, &mut nears);
         let end = nears.len();
         let side = |nears: &[Near], p: DVec3, distance: f64| {
-            let ties = nears.iter().filter(|near| near.distance <= distance + TIE);
+            let ties = nears.iter().filter(|near| near.height <= distance + TIE);
             truth.side(p, ties.copied())
         };
         let side_of_all = (region.least > region.radius)
             .then(|| side(&nears[count..], region.centre, region.distance));
-        let [x, y, z] = block.map(|at| {
-            let last = usize::from(at + 1 == blocks);
-            2 * at..2 * at + 2 + last
+        let [x, y, z] = [0, 1, 2].map(|axis| {
+            let at = block[axis];
+            2 * at..if at + 1 == blocks { places[axis] } else { 2 * at + 2 }
         });
         for k in z {
             for j in y.clone() {
@@ -111,7 +165,7 @@ pub(super) fn of_box(truth: &Truth<'_>, corner: DVec3, sides: DVec3, steps: usiz
                             Sample { distance: at.distance as f32, side }
                         }
                     };
-                    samples[i + side_of(steps) * (j + side_of(steps) * k)] = sample;
+                    samples[number_of([i, j, k], places)] = sample;
                 }
             }
         }

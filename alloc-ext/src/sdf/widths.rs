@@ -10,6 +10,9 @@ pub(super) const NEAR: f64 = 0.1;
 /// Weight of questions farther out.
 const FAR_WEIGHT: f64 = 0.05;
 
+/// Weight of a cell without questions.
+pub(super) const LEAST_WEIGHT: f64 = 1e-3;
+
 /// How much a sample counts.
 pub(super) fn weight(sample: Sample, kind: SdfKind, near: f64) -> f64 {
     match (sample.side, kind) {

@@ -146,6 +146,24 @@ fn hull_hierarchies_give_the_contacts_of_the_box_trees() {
 }
 
 #[test]
+fn all_pairs_of_a_cut_blob_leave_open_what_its_overlap_leaves_open() {
+    let directory = scratch("overlap_cut");
+    let hull = blob(&directory, "bracket.stl", &["--for", "hull"]);
+    let cut = directory.join("cut.msw");
+    ok(["cut", arg(&hull), "--level", "1", "-o", arg(&cut)]);
+    let poses: Vec<String> = (0..12).map(|i| format!("{},3,10,1,0,0,0", 8 * i)).collect();
+    let poses: Vec<&str> = poses.iter().map(String::as_str).collect();
+    let ask = |options: &[&str]| -> Vec<Vec<String>> {
+        let files = ["overlap", arg(&cut), arg(&hull)];
+        let rows = parse_csv(&ok([&files[..], options, &["--pose"], &poses[..]].concat()), HEADER);
+        rows.into_iter().map(|row| row[..4].to_vec()).collect()
+    };
+    let one = ask(&[]);
+    assert_eq!(one, ask(&["--all"]));
+    assert!(["apart", "undecided"].iter().all(|word| one.iter().any(|row| row[1] == *word)));
+}
+
+#[test]
 fn without_a_pose_meshes_are_where_they_were_built_and_coincide_openly() {
     let directory = scratch("overlap_still");
     let torus = blob(&directory, "torus.ply", &[]);

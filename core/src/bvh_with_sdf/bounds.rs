@@ -1,7 +1,7 @@
 //! Intervals of the distance without a closest point: the field answers alone where it is narrow
 //! enough.
 
-use super::pair::{BvhWithSdf, UNKNOWN};
+use super::pair::{ANY_LENGTH, BvhWithSdf};
 use crate::num::{greater, lesser, sum_up};
 use crate::query::{Budget, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Work};
 use crate::sdf::{FieldDistance, SdfKind};
@@ -119,7 +119,7 @@ impl BvhWithSdf<'_> {
         budget.check_with(scratch)?;
         self.check_distances()?;
         let found = self.look_up(point);
-        let (known, side) = found.map_or((EITHER, ON_SURFACE), |found| self.signed(&found));
+        let (known, side) = found.map_or((ANY_SIGNED, ON_SURFACE), |found| self.signed(&found));
         if is_narrow(known, &budget) {
             let (work, ended) = (Work::NONE, Ended::Tolerance);
             return Ok(SignedBounds { distance: known, side, work, ended });
@@ -134,7 +134,7 @@ impl BvhWithSdf<'_> {
                 ended: signed.closest.ended,
             });
         }
-        let outward = found.map_or(UNKNOWN, |found| self.surface_interval(&found));
+        let outward = found.map_or(ANY_LENGTH, |found| self.surface_interval(&found));
         let near = self.closest_between(point, &outward, budget, scratch);
         let near = near.as_ref().map_err(|&refused| refused)?;
         Ok(SignedBounds {
@@ -150,12 +150,12 @@ impl BvhWithSdf<'_> {
     fn signed(&self, found: &FieldDistance) -> (Interval, Side) {
         match (self.field().kind(), found.side) {
             (SdfKind::Signed, side) | (_, side @ Side::Outside) => (found.distance, side),
-            _ => (EITHER, ON_SURFACE),
+            _ => (ANY_SIGNED, ON_SURFACE),
         }
     }
 }
 
-/// Nothing is known of a signed distance.
-const EITHER: Interval = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
+/// Any signed distance.
+const ANY_SIGNED: Interval = Interval::new(f32::NEG_INFINITY, f32::INFINITY);
 
 const ON_SURFACE: Side = Side::Undecided(Undecided::OnSurface);

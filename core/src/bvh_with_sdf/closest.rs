@@ -1,6 +1,6 @@
 //! The closest point, and the side: the tree answers, and the field spares a part of its search.
 
-use super::pair::{BvhWithSdf, UNKNOWN};
+use super::pair::{ANY_LENGTH, BvhWithSdf};
 use crate::num::{SOFT_FLOAT, greater, lesser};
 use crate::query::{
     Budget, ClosestPoint, Interval, QueryError, ScratchEntry, Side, SignedDistance,
@@ -28,7 +28,7 @@ impl BvhWithSdf<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         budget.check_with(scratch)?;
-        if !self.is_limited(&budget, scratch) {
+        if !self.may_limit(&budget, scratch) {
             return self.tree().closest_point(point, budget, scratch);
         }
         self.closest_between(point, &self.known(point), budget, scratch)
@@ -52,7 +52,7 @@ impl BvhWithSdf<'_> {
     ) -> Result<SignedDistance, QueryError> {
         budget.check_with(scratch)?;
         let found = self.look_up(point);
-        let known = found.map_or(UNKNOWN, |found| self.surface_interval(&found));
+        let known = found.map_or(ANY_LENGTH, |found| self.surface_interval(&found));
         match found.map(|found| found.side) {
             Some(side @ (Side::Outside | Side::Inside)) => {
                 let closest = self.closest_between(point, &known, budget, scratch)?;
@@ -62,12 +62,12 @@ impl BvhWithSdf<'_> {
         }
     }
 
-    /// Whether the field's interval limits the search. Where steps or memory may end a search, it
-    /// is the tree's own: a search that ends before it found a triangle within the limit would know
-    /// none. Vector targets search exact points in an order of their own, and integers have limits
-    /// of their own.
+    /// Whether the field's interval may limit the search. It may not where steps or scratch could
+    /// end the search before a triangle within the limit is found: the answer would have no point.
+    /// For exact points vector targets visit leaves in an order of their own, and targets without
+    /// floating point keep limits as integers. There a limit from outside has no place.
     #[inline(always)]
-    fn is_limited(&self, budget: &Budget, scratch: &[ScratchEntry]) -> bool {
+    fn may_limit(&self, budget: &Budget, scratch: &[ScratchEntry]) -> bool {
         budget.steps == Budget::EXACT.steps
             && scratch.len() >= self.tree().scratch_entries_for(*budget)
             && (!is_exact(budget) || !(SOFT_FLOAT || cfg!(meshsweep_wide)))
@@ -83,7 +83,7 @@ impl BvhWithSdf<'_> {
         scratch: &mut [ScratchEntry],
     ) -> Result<ClosestPoint, QueryError> {
         // In place: a copy is made number by number.
-        let mut answer = if self.is_limited(&budget, scratch) {
+        let mut answer = if self.may_limit(&budget, scratch) {
             self.tree().closest_point_between(point, known, &budget, scratch)
         } else {
             self.tree().closest_point(point, budget, scratch)

@@ -9,8 +9,8 @@ use crate::sdf::{FieldDistance, Sdf, SdfKind};
 /// A box tree and the distance field of the same mesh. Questions are those of the tree; the field
 /// answers the ones that it can, and limits the search of the others.
 ///
-/// Every answer is at least as good as the tree's: it holds as surely, and no interval is wider
-/// than the tolerance asked for, up to the surface error and rounding, as the tree's.
+/// Every answer holds as surely as the box tree's, and is as narrow: no interval is wider than the
+/// tolerance, up to the surface error and rounding. Verdicts of the field have no witness.
 /// [`tree`](Self::tree) and [`field`](Self::field) give both views for all other questions.
 ///
 /// ```
@@ -27,8 +27,8 @@ pub struct BvhWithSdf<'a> {
     field: Sdf<'a>,
 }
 
-/// Nothing is known of a distance.
-pub(super) const UNKNOWN: Interval = Interval::new(0.0, f32::INFINITY);
+/// Any distance from a surface.
+pub(super) const ANY_LENGTH: Interval = Interval::new(0.0, f32::INFINITY);
 
 impl<'a> BvhWithSdf<'a> {
     /// Pairs a tree with a field. Both must be of the same mesh, in the same unit and place: of the
@@ -85,7 +85,7 @@ impl<'a> BvhWithSdf<'a> {
             found.distance
         } else if self.field.kind() == SdfKind::Solid {
             // Inside, the distance to the surface is any.
-            UNKNOWN
+            ANY_LENGTH
         } else if upper < 0.0 {
             Interval::new(-upper, -lower)
         } else {
@@ -96,7 +96,7 @@ impl<'a> BvhWithSdf<'a> {
     /// The same of a point.
     #[inline(always)]
     pub(super) fn known(&self, point: [f32; 3]) -> Interval {
-        self.look_up(point).map_or(UNKNOWN, |found| self.surface_interval(&found))
+        self.look_up(point).map_or(ANY_LENGTH, |found| self.surface_interval(&found))
     }
 
     /// Refuses a tree without boxes for distances, though the field might answer: a question is

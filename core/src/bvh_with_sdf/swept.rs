@@ -170,7 +170,7 @@ impl BvhWithSdf<'_> {
                     break;
                 }
                 match self.ball(along(middle, way, t), radius) {
-                    // A NaN ends the loop, and is not above 1.
+                    // If t is a NaN, the next look-up is undecided, or the loop runs out.
                     Ball::Clear { by } => t = sum_down(t, by / length * STEP_KEPT),
                     Ball::Meets => return Some(true),
                     Ball::Undecided => return None,

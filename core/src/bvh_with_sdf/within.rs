@@ -1,11 +1,11 @@
 //! Whether the surface is within a distance of a point.
 
-use super::pair::{BvhWithSdf, UNKNOWN};
-use crate::query::{Budget, Decided, Interval, QueryError, ScratchEntry, Undecided, Verdict, Work};
+use super::pair::BvhWithSdf;
+use crate::query::{Budget, Decided, QueryError, ScratchEntry, Undecided, Verdict, Work};
 use crate::sdf::Near;
 
 /// The field does not decide.
-const OPEN: Verdict = Verdict::Undecided(Undecided::Resolution);
+const UNDECIDED: Verdict = Verdict::Undecided(Undecided::Resolution);
 
 impl BvhWithSdf<'_> {
     /// Whether the input mesh is at most `distance` from `point`, both in input units. See
@@ -34,27 +34,13 @@ impl BvhWithSdf<'_> {
         self.check_distances()?;
         let verdict = match self.field().within_field(point) {
             // Of a field that was not checked nothing is known.
-            Some(place) => self.field().told(&place, distance, Near::Surface).unwrap_or(OPEN),
-            None => self.told_from_beyond(point, distance),
+            Some(place) => self.field().told(&place, distance, Near::Surface).unwrap_or(UNDECIDED),
+            // Beyond the field no point is inside: the solid is as far as the surface.
+            None => self.field().within_from_beyond(point, distance).unwrap_or(UNDECIDED),
         };
         if matches!(verdict, Verdict::Undecided(_)) {
             return self.tree().within(point, distance, budget, scratch);
         }
         Ok(Decided { verdict, witness: None, work: Work::NONE })
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn told_from_beyond(&self, point: [f32; 3], distance: f32) -> Verdict {
-        let found = self.field().distance_beyond(point);
-        let Interval { lower, upper } =
-            found.map_or(UNKNOWN, |found| self.surface_interval(&found));
-        if lower > distance {
-            Verdict::No
-        } else if upper <= distance {
-            Verdict::Yes
-        } else {
-            OPEN
-        }
     }
 }

@@ -34,8 +34,9 @@ pub struct AllOverlaps {
     /// f32) and `exact` (in f64), pairs of nodes as `opened`.
     pub work: Work,
     /// [`Ended::Exact`]: these are all of the input's pairs. [`Ended::Resolution`]: pairs that are
-    /// not certain may not meet; no other pair does. [`Ended::Scratch`]: some pairs did not fit the
-    /// slice or the scratch memory. [`Ended::Steps`]: more pairs may exist.
+    /// not certain may not meet; no other pair does. Without any pair: a blob is cut, and the
+    /// surfaces may meet. [`Ended::Scratch`]: some pairs did not fit the slice or the scratch
+    /// memory. [`Ended::Steps`]: more pairs may exist.
     pub ended: Ended,
 }
 

@@ -32,7 +32,7 @@ const ROUNDED: f32 = 4.0 * f32::EPSILON;
 /// two sums, the root.
 const ROUNDED_BEYOND: f32 = 8.0 * f32::EPSILON;
 
-/// Of a gradient's entry, 2^-15.
+/// One of a gradient's component, 2^-15.
 const SLOPE: f32 = 1.0 / (1u32 << SLOPE_BITS) as f32;
 
 impl Sdf<'_> {
@@ -99,7 +99,7 @@ impl Sdf<'_> {
     /// [`Solid`](SdfKind::Solid). Outside of the field it leads from about the nearest point of the
     /// surface to `point`, with length 1 at most.
     ///
-    /// Cost: a quarter more than [`distance`](Self::distance) on a Cortex-M4F.
+    /// Cost: a quarter more than [`distance`](Self::distance) on a Cortex-M4F (*historical*).
     ///
     /// # Errors
     /// Those of [`distance`](Self::distance).

@@ -6,7 +6,8 @@
 //! decides: a cell at a sharp edge or in a thin wall. Here each cell has an error of its own below
 //! and one above. Both are in one byte: two numbers of four bits, each into a book of sixteen
 //! errors. Beside a plain grid of as many bytes the mean interval is 11 times narrower about the
-//! bracket and 3.7 times about the torus, at 16 KiB (`cargo xtask measure --field`).
+//! bracket and 3.7 times about the torus, at 16 KiB (`cargo xtask measure --field
+//! fixtures/bracket.stl fixtures/torus.ply`).
 //!
 //! *Why a tree.* On machined parts the distance is a plane over long boxes and bends at few places.
 //! A node halves any of the three axes at once, so its children are cubes, plates or rods. A leaf
@@ -25,10 +26,14 @@
 //! | `torus.ply`, tree of 2 KiB | 2.5 | 205 / 240 | 180 / 200 | 2,086 / 2,200 | 277 / 320 |
 //! | `bracket.stl`, lattice of 16 KiB | – | 180 / 200 | 135 / 160 | 2,040 / 2,120 | 232 / 240 |
 //!
-//! What made it cheap, by a quarter in all: the place of a child counts from its node, so that no
-//! step is counted and the descent ends all the same; one jump to a case for each set of axes; ways
-//! cut by half the level, so that two shifts serve all levels; bits of f32 compared in place of
-//! signs and ends. *Lost*: the leaf's code in both the questions inside and beyond the field.
+//! What made it cheaper, by a quarter in all (*historical*):
+//! - The place of a child counts from its node. So the descent ends, and no step is counted.
+//! - One jump leads to a case for each set of axes.
+//! - Offsets lose four bits before they are squared, and one fewer for every two halvings. So the
+//!   bend is shifted by 8 or 7.
+//! - Bits of f32 are compared in place of signs and ends.
+//!
+//! *Lost*: the leaf's code in both the questions inside and beyond the field.
 //!
 //! *Units.* Points, distances and errors are whole numbers of one unit, a 2048th of a lattice's
 //! cell or a 65,536th of a tree's root cell. So a processor without floating point needs no

@@ -17,7 +17,10 @@ pub(super) fn are_below([x, y, z]: [u32; 3], [width, depth, height]: [u32; 3]) -
 impl Sdf<'_> {
     /// Whole units nearest to a point of the field: within half a unit along each axis, and a
     /// sixteenth for rounding. A difference and a product lose at most two parts in 2^24 of fewer
-    /// than 2^19 units. `None` of a point outside, and of -0 units.
+    /// than 2^19 units.
+    ///
+    /// `None` of a point outside. Also of -0 units, which a small negative offset may underflow to:
+    /// the path beyond the field answers it.
     #[inline(always)]
     pub(crate) fn within_field(&self, point: [f32; 3]) -> Option<[u32; 3]> {
         let units @ [x, y, z] = self.unrounded(point);

@@ -7,13 +7,13 @@
 //! *Value.* With the way x from the centre in units, entries g of the gradient, curvature k and the
 //! largest half side m of the cell, the function is
 //! base + p·(code·step + g·x + k·(|x|² − (g·x/32)²)/2m), p = 1057/2^15, about a 31st. So g = 31 is a
-//! gradient of 1, and k bends the function across the gradient alone, as the distance from a point
-//! or an edge does.
+//! gradient of 1. k bends the function across the gradient, as the distance from a point or an edge
+//! does. 32 in place of 31 makes a division a shift, and leaves 6 % of the bend along the gradient.
 //!
-//! *Rounding.* All but the squares is exact up to the last shifts, which lose less than two units.
-//! Ways are cut to 11 bits in a root cell for the squares, and to a bit less for every second
-//! halving: so the shifts of the bend are 8 or 7. What this changes is bounded by
-//! [`loss`](super::format::layout::tree::loss), and the builder adds it to the width.
+//! *Rounding.* All but the squares is exact up to the last shifts. For the squares, ways are cut to
+//! 11 bits in a root cell, and to a bit less for every second halving. So the shifts of the bend
+//! are 8 or 7. [`loss`](super::format::layout::tree::loss) bounds what both change, and the builder
+//! adds it to the width.
 
 use super::format::Sdf;
 use super::format::layout::tree::{

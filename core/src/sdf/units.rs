@@ -24,8 +24,11 @@ impl Sdf<'_> {
     /// The bounds hold of the place itself: if a point was rounded to it, add a unit on each side.
     /// The distances mean the same as those of [`distance`](Sdf::distance), and no rounding of f32
     /// is added. Of a field of kind signed a place is outside if `lower` is above 0, and inside if
-    /// `upper` is below 0; of kind solid only outside is told. Outside of the field, the greatest
-    /// of the coordinates' distances from it stands below, and their sum above.
+    /// `upper` is below 0; of kind solid only outside is told.
+    ///
+    /// Outside of the field, `lower` is the greater of two bounds: the nearest place's, less 2, and
+    /// the largest distance of a coordinate from the field, less 1. `upper` is the nearest place's,
+    /// at least 0, plus the sum of the coordinates' distances from the field.
     ///
     /// Cost: one look-up in integers, the same for every place of a lattice, and
     /// [`steps`](Sdf::steps) entries at most of a tree; no scratch memory.

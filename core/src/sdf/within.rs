@@ -8,8 +8,8 @@ use crate::query::{Interval, QueryError, Undecided, Verdict};
 /// Longer distances are asked about as this one, units: no bound of a field is as large.
 const MOST_ASKED: i32 = 1 << 30;
 
-/// Units of a distance, as a power of 2, that may be off by one more: the unit and a product lose
-/// less than 2^-22 of them.
+/// A distance of 2^20 units may be off by one unit: the unit and a product lose less than a
+/// quarter of that.
 const OFF_BITS: u32 = 20;
 
 /// What must be within the distance.
@@ -60,8 +60,11 @@ impl Sdf<'_> {
     }
 
     /// Compares bounds with a distance whose whole units are `asked`. The bounds are those of the
-    /// nearest place: those of the point are a unit wider on each side. The distance is above
-    /// `asked` − `off` − 1 and below `asked` + `off` + 2, with 3/4 of a unit to spare.
+    /// nearest place: those of the point are a unit wider on each side.
+    ///
+    /// The distance is above `asked` − `off` − 1/4 and below `asked` + 1 + `off` + 1/4, for it was
+    /// cut to whole units. So with the unit of the place both comparisons have 3/4 of a unit to
+    /// spare.
     #[inline(always)]
     fn decided(&self, [lower, upper]: [i32; 2], asked: i32, near: Near) -> Verdict {
         let off = asked >> OFF_BITS;
@@ -80,7 +83,11 @@ impl Sdf<'_> {
 
     #[cold]
     #[inline(never)]
-    fn within_from_beyond(&self, point: [f32; 3], distance: f32) -> Result<Verdict, QueryError> {
+    pub(crate) fn within_from_beyond(
+        &self,
+        point: [f32; 3],
+        distance: f32,
+    ) -> Result<Verdict, QueryError> {
         let Interval { lower, upper } = self.distance_beyond(point)?.distance;
         Ok(if lower > distance || upper < -distance {
             Verdict::No

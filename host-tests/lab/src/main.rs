@@ -4,9 +4,11 @@
 //! measuring ─ measure, hulls_on_board, fans_on_board
 //! robot ───── measure::robot, in the emulator
 //! racing ──── race
+//! batch ───── a batch of the library, timed
 //! rival ───── images of other engines, in the emulator
 //! ```
 
+mod batch;
 mod fans_on_board;
 mod hulls_on_board;
 mod measuring;
@@ -14,6 +16,7 @@ mod racing;
 mod rival;
 mod robot;
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use meshsweep_lab::measure::paper;
@@ -48,6 +51,9 @@ cargo xtask race [--pairs] [--quick] [MESH...]
           --quick     fewer queries
 cargo xtask race --hausdorff MESH MESH
                                     the Hausdorff distance of two meshes
+cargo xtask race --batch BLOB POINTS
+                                    seconds of exact closest points by one batch; POINTS has three
+                                    f32 a point
 cargo xtask rival [MESH] [--faces COUNT,COUNT...] [--seed NUMBER]
                                     parry3d on a Cortex-M4F (default: a rough sphere at 2500,10000)";
 
@@ -65,6 +71,15 @@ fn main() -> ExitCode {
             Some(options) => measuring::run(&mut steps, options),
             None => return usage(),
         },
+        ["race", "--batch", blob, points] => {
+            match batch::seconds(Path::new(blob), Path::new(points)) {
+                Ok(seconds) => say::text(format!("{seconds}\n")),
+                Err(error) => {
+                    eprintln!("{error}");
+                    return ExitCode::FAILURE;
+                }
+            }
+        }
         ["race", rest @ ..] => {
             if racing::run(&mut steps, rest).is_none() {
                 return usage();

@@ -29,6 +29,9 @@ const PACKAGES: [&str; 8] = [
 /// What the package is raced against.
 const RIVALS: [&str; 5] = ["libigl", "python-fcl", "coal", "rtree", "scipy"];
 
+/// The package of the program that times a batch without Python.
+const LAB: &str = "meshsweep-lab";
+
 /// Races the package against others of PyPI on these meshes.
 pub fn race(steps: &mut Steps, meshes: &[&str]) {
     let Some(python) = steps.run("Python: an environment", environment) else { return };
@@ -36,10 +39,14 @@ pub fn race(steps: &mut Steps, meshes: &[&str]) {
         wheel(&python)?;
         process::run(pip(&python).args(RIVALS))
     });
-    if ready.is_some() {
+    let lab = steps.run("the laboratory", || {
+        process::run(&mut cargo(&["build", "--quiet", "--profile", "dist", "--package", LAB]))
+    });
+    if ready.is_some() && lab.is_some() {
         steps.run("Python: race", || {
             let mut command = Command::new(&python);
             command.arg(workspace::root().join("host-tests/lab/src/race/packages.py")).args(meshes);
+            command.env("MESHSWEEP_LAB", workspace::target().join("dist/meshsweep-lab"));
             for threads in ["RAYON_NUM_THREADS", "IGL_NUM_THREADS", "OMP_NUM_THREADS"] {
                 command.env(threads, "1");
             }

@@ -21,6 +21,11 @@ Segments and rays are rounded, and a `NO` of `first_hit` and of its kin is prove
 given; all else is about the rounded one. Poses are rounded, and the answer is about the rounded
 one. Give float32 to see no rounding.
 
+**Key frames.** The model of a mesh that deforms, `build(..., "deform", frames=[...])`, is asked
+with `frame`: 1.25 is a quarter of the way from frame 1 to frame 2, and 0 is the mesh at rest.
+Between two frames each vertex moves on a straight line. Frames are rounded to single precision, and
+the answer is about the rounded one.
+
 **Processes.** A model can be pickled. The child of a fork has threads of its own.
 """
 
@@ -32,7 +37,7 @@ from ._model import Model, load
 from ._opened import Note
 from ._records import Ended, Facing, Lists, Relation, Side, Verdict
 from ._segments import AllHits
-from ._trade import Instructions, Trade, TradeRow, trade
+from ._trade import Choice, Instructions, Trade, TradeRow, choose, trade
 from ._triboxes import Triboxes
 from ._verify import Finding, Proof, verify
 
@@ -42,6 +47,7 @@ __all__ = [
     "AllHits",
     "BlobError",
     "BuildError",
+    "Choice",
     "Ended",
     "Facing",
     "Finding",
@@ -63,6 +69,7 @@ __all__ = [
     "Triboxes",
     "Verdict",
     "build",
+    "choose",
     "hausdorff",
     "load",
     "trade",

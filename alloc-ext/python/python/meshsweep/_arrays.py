@@ -58,6 +58,21 @@ def pairs(a: ArrayLike, b: ArrayLike) -> NDArray[np.float32]:
     return single(np.hstack([first, second]))
 
 
+def framed(
+    rows: NDArray[Any], what: str, frame: ArrayLike
+) -> tuple[NDArray[Any], NDArray[np.float32]]:
+    """Rows, and a column of the frame of each. One of both may be given once for all."""
+    frames = numbers(frame, "frame")
+    if frames.ndim > 1:
+        raise QueryError(f"frame: one number or shape (n,) is wanted, not {frames.shape}")
+    column = single(frames.reshape(-1, 1))
+    try:
+        (count,) = np.broadcast_shapes((len(rows),), (len(column),))
+    except ValueError:
+        raise QueryError(f"{len(rows)} {what} for {len(column)} frames") from None
+    return np.broadcast_to(rows, (count, rows.shape[1])), np.broadcast_to(column, (count, 1))
+
+
 def poses(poses: ArrayLike | None) -> NDArray[np.float32]:
     """Rows of twelve: the upper three rows of each matrix."""
     matrices = np.eye(4) if poses is None else numbers(poses, "poses")

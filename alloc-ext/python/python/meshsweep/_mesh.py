@@ -23,7 +23,8 @@ class Faces(Protocol):
 
 
 Mesh = str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Faces
-Progress = bool | Callable[[str, float], Any] | None
+Tell = Callable[[str, float], Any] | None
+Progress = bool | Tell
 
 
 def given(mesh: Any) -> str | tuple[NDArray[np.float64], NDArray[np.uint32]]:
@@ -69,7 +70,7 @@ class Bar:
         self._progress = progress
         self._bar: Any = None
 
-    def __enter__(self) -> Callable[[str, float], Any] | None:
+    def __enter__(self) -> Tell:
         if self._progress is not True:
             return self._progress or None
         try:

@@ -12,9 +12,10 @@ from ._points import Points
 from ._segments import Segments
 from ._solids import Solids
 from ._triboxes import TriboxQuestions
+from ._views import Views
 
 
-class Model(Points, Segments, Solids, Pairs, TriboxQuestions, Hulls):
+class Model(Points, Segments, Solids, Pairs, TriboxQuestions, Views, Hulls):
     """An opened blob, which answers questions. Safe to share between threads, and to pickle, with
     its report. Models of the same bytes are equal."""
 

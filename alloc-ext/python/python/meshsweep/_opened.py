@@ -90,6 +90,11 @@ class Opened:
         return self._facts["has_sides"]
 
     @property
+    def frames(self) -> int | None:
+        """Number of key frames, that at rest included; `None` of a model that does not deform."""
+        return self._facts["frames"]
+
+    @property
     def surface_error(self) -> float | None:
         """No stored point of the surface is farther from the input mesh. Intervals include it."""
         return self._facts["surface_error"]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, limits, yes_or_no
+from ._arrays import checked, framed, limits, yes_or_no
 from ._arrays import poses as poses_of
 from ._meshsweep import QueryError
 from ._opened import Opened, other_of
@@ -52,21 +52,39 @@ class Pairs(Opened):
         second, matrices = other_of(other), poses_of(poses)
 
         def question(limits: NDArray[np.float32]) -> Records:
-            return ask(self._model.meets, _records.MEETS, matrices, second, float(limits[0]))
+            return ask(self._model.within_of, _records.MEETS, matrices, second, float(limits[0]))
 
         return asked(question, checked(distance), np.zeros(1))
 
-    def overlap(self, other: Opened, poses: ArrayLike | None = None) -> Records:
+    def overlap(
+        self,
+        other: Opened,
+        poses: ArrayLike | None = None,
+        *,
+        frame: ArrayLike | None = None,
+    ) -> Records:
         """Whether both surfaces meet, at poses of the other. Fields: those of `within_of`. Poses
-        are rounded, as those of `distance_to`."""
-        return ask(self._model.meets, _records.MEETS, poses_of(poses), other_of(other), None)
+        are rounded, as those of `distance_to`.
+
+        Where one has no "segment", and both have a hull hierarchy, the hierarchies answer: `NO` or
+        undecided, without triangles, if one of them was cut.
+
+        With `frame` this surface is that of a key frame or between two: one number for all poses,
+        or one for each. This model needs "deform", the other one, at rest, a hull hierarchy.
+        """
+        matrices, second = poses_of(poses), other_of(other)
+        if frame is not None:
+            rows = np.hstack(framed(matrices, "poses", frame))
+            return ask(self._model.overlap_at, _records.MEETS, rows, second)
+        return ask(self._model.overlap, _records.MEETS, matrices, second)
 
     def all_overlaps(self, other: Opened, poses: ArrayLike | None = None) -> Lists:
         """All pairs of triangles that meet or may meet, at poses of the other: `Lists` of n
         records. Poses are rounded, as those of `distance_to`.
 
         Fields: `triangles`, one of each model; `is_certain`: whether it is proved that they meet.
-        Lists are complete, always: no other pair meets. Both need "segment".
+        Lists are complete, always: no other pair meets. Both need "segment"; without it hull
+        hierarchies answer as for `overlap`, if none was cut.
         """
         second, question = other_of(other), self._model.all_overlaps
         begins, found, _ = ask_lists(question, _records.OVERLAP, poses_of(poses), second)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, distances, limits, rows, whole, yes_or_no
+from ._arrays import checked, distances, framed, limits, rows, whole, yes_or_no
 from ._meshsweep import QueryError
 from ._opened import Opened
 from ._records import Lists, Records, Verdict, ask, ask_lists
@@ -21,6 +21,14 @@ class Points(Opened):
     def _points(self, points: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
         return rounded(rows(points, "points", (3, 2) if self._facts["is_flat"] else (3,)))
 
+    def _points_at(
+        self, points: ArrayLike, frame: ArrayLike
+    ) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
+        """Rows of a point and its frame."""
+        places, frames = framed(rows(points, "points"), "points", frame)
+        near, moved = rounded(places)
+        return np.hstack([near, frames]), moved
+
     def closest_point(
         self,
         points: ArrayLike,
@@ -29,6 +37,7 @@ class Points(Opened):
         abs: SupportsFloat = 0.0,
         steps: int | None = None,
         precise: bool = False,
+        frame: ArrayLike | None = None,
     ) -> Records:
         """The distance of each point from the surface, and a point of the surface.
 
@@ -48,8 +57,17 @@ class Points(Opened):
         `surface_error`: build with `vertex_bits=32`, or that hides the gain. Give float32, or the
         interval is wider by the rounding of the points. It needs a box tree for "closest", takes
         no `rel` and no `abs`, and costs a second search.
+
+        With `frame` the distance is that of the mesh at a key frame or between two: one number for
+        all points, or one for each. Needs "deform".
         """
         how, is_precise = limits(rel, abs, steps), yes_or_no(precise, "precise")
+        if frame is not None:
+            if is_precise:
+                raise QueryError("precise: it takes no frame")
+            near, moved = self._points_at(points, frame)
+            found = ask(self._model.closest_point_at, _records.CLOSEST, near, how)
+            return widened(found, moved)
         if is_precise and any(how[:2]):
             raise QueryError("precise: it takes no rel and no abs, only steps")
         dtype = _records.CLOSEST_ON_CURVE if self._facts["is_curve"] else _records.CLOSEST
@@ -116,20 +134,25 @@ class Points(Opened):
         slack = np.zeros(1) if moved is None else moved.astype(np.float64)
         return asked(question, distances(distance, len(near)), slack)
 
-    def nearest(self, points: ArrayLike, count: int) -> Records:
+    def nearest(self, points: ArrayLike, count: int, *, frame: ArrayLike | None = None) -> Records:
         """The `count` triangles nearest to each point, nearest first: shape (n, count).
 
         Fields: `lower`, `upper`, `point`, `triangle`, as those of `closest_point`; of curves
-        `polyline` and `segment`. A mesh with fewer triangles has fewer. Memory that is too short
-        for all answers raises `MemoryError`.
+        `polyline` and `segment`. A mesh with fewer triangles has fewer. With `frame` as for
+        `closest_point`. Memory that is too short for all answers raises `MemoryError`.
         """
-        near, moved = self._points(points)
         most = whole(count, "count")
         if not most:
             raise QueryError("count: at least 1 is wanted")
-        dtype = _records.NEAREST_ON_CURVE if self._facts["is_curve"] else _records.NEAREST
-        found = ask(self._model.nearest, dtype, near, most)
-        each = found.reshape(len(near), min(most, self._facts["elements"] or most))
+        if frame is None:
+            near, moved = self._points(points)
+            dtype = _records.NEAREST_ON_CURVE if self._facts["is_curve"] else _records.NEAREST
+            found = ask(self._model.nearest, dtype, near, most)
+        else:
+            near, moved = self._points_at(points, frame)
+            found = ask(self._model.nearest_at, _records.NEAREST, near, most)
+        width = -1 if len(near) else min(most, self._facts["elements"] or most)
+        each = found.reshape(len(near), width)
         return widened(cast(Records, each), moved)
 
     def all_within(self, points: ArrayLike, distance: SupportsFloat) -> Lists:
@@ -137,8 +160,8 @@ class Points(Opened):
 
         Fields: `lower`, `upper`, `point`, `triangle`, as those of `closest_point` (of curves
         `polyline` and `segment`), and `is_certain`: false of triangles that are perhaps a little
-        farther. Lists are complete, always: no other triangle is so near. Points in double precision that single precision does
-        not hold are refused.
+        farther. Lists are complete, always: no other triangle is so near. Points in double
+        precision that single precision does not hold are refused.
         """
         near, moved = self._points(points)
         if moved is not None:
@@ -179,6 +202,24 @@ class Points(Opened):
         near, moved = rounded(rows(points, "points"))
         found = ask(self._model.field, _records.FIELD, near)
         return widened(found, moved, is_signed=self.field_kind == "signed")
+
+    def field_within(self, points: ArrayLike, distance: SupportsFloat) -> Records:
+        """Whether the surface is at most `distance` from each point, by the distance field alone.
+
+        Of a field of kind "solid" whether the solid is: a point inside is never `NO`, so a guard
+        takes this kind. Of the others a point deep inside is `NO`. Undecided where the field's
+        interval holds lengths on both sides of `distance`. Needs "sdf".
+
+        Fields: `verdict`; `ended`; `work`, which is 0.
+        """
+        near, moved = rounded(rows(points, "points"))
+
+        def question(limits: NDArray[np.float32]) -> Records:
+            limits = np.broadcast_to(limits[:, None], (len(near), 1))
+            return ask(self._model.field_within, _records.DECIDED, np.hstack([near, limits]))
+
+        slack = np.zeros(1) if moved is None else moved.astype(np.float64)
+        return asked(question, checked(distance), slack)
 
     def distance_bounds(
         self,

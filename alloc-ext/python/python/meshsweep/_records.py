@@ -30,6 +30,7 @@ WINDING = np.dtype([*_INTERVAL, ("side", "i1"), *_END])
 FIRST_HIT = np.dtype(
     [("verdict", "u1"), ("t_lower", "f4"), ("t_upper", "f4"), _POINT, ("triangle", "i8"), *_END]
 )
+DECIDED = np.dtype([("verdict", "u1"), *_END])
 ALL_HITS = np.dtype([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")])
 BOUNDS = np.dtype([*_INTERVAL, *_END])
 SIGNED_BOUNDS = np.dtype([*_INTERVAL, ("side", "i1"), *_END])
@@ -51,6 +52,7 @@ TRIBOX = np.dtype([("lower", "f4"), ("tribox", "i8"), *_END])
 TRIBOX_HIT = np.dtype([("verdict", "u1"), ("t_lower", "f4"), ("tribox", "i8"), *_END])
 TRIBOX_PAIR = np.dtype([("verdict", "u1"), ("triboxes", "i8", 2), *_END])
 CANDIDATE = np.dtype([("triboxes", "i8", 2)])
+FACING = np.dtype([("triangle", "i8")])
 
 DIRECTIONS = np.array(
     [

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
 from ._arrays import facing as facing_of
-from ._arrays import pairs, whole
+from ._arrays import framed, pairs, whole
+from ._meshsweep import QueryError
 from ._opened import Opened
 from ._records import Facing, Lists, Records, ask, ask_lists
 from ._rounding import moved_pairs
@@ -34,6 +36,7 @@ class Segments(Opened):
         *,
         facing: Facing | int = Facing.BOTH,
         steps: int | None = None,
+        frame: ArrayLike | None = None,
     ) -> Records:
         """The first point of each segment that lies on the surface.
 
@@ -47,8 +50,25 @@ class Segments(Opened):
         all facings count, so with `facing` a segment that was moved is `UNDECIDED` where it passes
         the other side of a triangle. All else, a `YES` too, is about the rounded segment: give
         float32 to see no rounding.
+
+        Needs "segment"; without it the hull hierarchy answers, with both facings alone, and names
+        no triangle if it was cut.
+
+        With `frame` the surface is that of a key frame or between two: one number for all segments,
+        or one for each. Between two no hit is proved. It has both facings, and needs "deform".
         """
+        if frame is not None:
+            rows = self._segments_at(starts, ends, facing, frame)
+            return ask(self._model.first_hit_at, _records.FIRST_HIT, rows, whole(steps, "steps"))
         return self._first_hit(starts, ends, False, facing, steps)
+
+    def _segments_at(
+        self, starts: ArrayLike, ends: ArrayLike, facing: Facing | int, frame: ArrayLike
+    ) -> NDArray[np.float32]:
+        """Rows of a segment, how far rounding moved its ends, and its frame."""
+        if facing_of(facing) != Facing.BOTH:
+            raise QueryError("facing: it takes no frame")
+        return np.hstack(framed(moved_pairs(starts, ends), "segments", frame))
 
     def first_hit_of_ray(
         self,
@@ -71,7 +91,12 @@ class Segments(Opened):
         return ask(self._model.first_hit, _records.FIRST_HIT, moved_pairs(a, b), *how)
 
     def all_hits(
-        self, starts: ArrayLike, ends: ArrayLike, *, facing: Facing | int = Facing.BOTH
+        self,
+        starts: ArrayLike,
+        ends: ArrayLike,
+        *,
+        facing: Facing | int = Facing.BOTH,
+        frame: ArrayLike | None = None,
     ) -> AllHits:
         """All triangles that each segment meets, first ones first.
 
@@ -82,7 +107,12 @@ class Segments(Opened):
 
         Segments are rounded to single precision, and the lists, with what is said of them, are
         about the rounded ones. Give float32 to see no rounding.
+
+        With `frame`, and without "segment", as for `first_hit`.
         """
+        if frame is not None:
+            rows = self._segments_at(starts, ends, facing, frame)
+            return _listed(self._model.all_hits_at, rows)
         return self._all_hits(starts, ends, False, facing)
 
     def all_hits_of_ray(
@@ -93,7 +123,9 @@ class Segments(Opened):
         return self._all_hits(origins, directions, True, facing)
 
     def _all_hits(self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing | int) -> AllHits:
-        how = is_ray, facing_of(facing)
-        question = self._model.all_hits
-        begins, found, is_complete = ask_lists(question, _records.ALL_HITS, pairs(a, b), *how)
-        return AllHits(Lists(begins, found), is_complete)
+        return _listed(self._model.all_hits, pairs(a, b), is_ray, facing_of(facing))
+
+
+def _listed(question: Callable[..., Any], rows: NDArray[np.float32], *how: Any) -> AllHits:
+    begins, found, is_complete = ask_lists(question, _records.ALL_HITS, rows, *how)
+    return AllHits(Lists(begins, found), is_complete)

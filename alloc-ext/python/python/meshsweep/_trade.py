@@ -1,16 +1,17 @@
-"""Measures what settings guarantee and cost."""
+"""Measures what settings guarantee and cost, and chooses one that meets limits."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple, SupportsFloat
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _meshsweep
-from ._arrays import numbers, single, whole, word
-from ._mesh import Bar, Mesh, Progress, given
+from ._arrays import checked, numbers, single, whole, word, yes_or_no
+from ._mesh import Bar, Mesh, Progress, Tell, given
 from ._meshsweep import BuildError
+from ._model import Model
 
 
 class Instructions(NamedTuple):
@@ -41,7 +42,7 @@ class TradeRow(NamedTuple):
     lower bounds."""
     median_error: float | None
     undecided: int
-    """Segments that stayed undecided."""
+    """Segments that stayed undecided; of curves sides, and verdicts of `within`."""
     instructions: dict[str, Instructions]
     """By the name of the processor. One without fitted costs is missing."""
     flash: int
@@ -65,6 +66,18 @@ class Trade(NamedTuple):
     more instructions than predicted, which `at_most` allows for."""
 
 
+class Choice(NamedTuple):
+    """A setting that meets limits, and its model."""
+
+    model: Model
+    first: TradeRow
+    """The setting: `dials` say how firmware asks the model, `build` how it was built."""
+    second: TradeRow | None
+    """The best of the other settings that meet the limits and have less of something."""
+    needles: float
+    """As in `Trade`."""
+
+
 def trade(
     mesh: Mesh,
     for_: str = "closest",
@@ -73,18 +86,98 @@ def trade(
     count: int = 1000,
     progress: Progress = None,
     unit: str | None = None,
+    closed: bool = False,
 ) -> Trade:
     """Measures what each setting of each structure guarantees and costs: `meshsweep trade`.
 
-    `mesh` and `unit` as of `build`. `for_` is "closest" or "segment". `at` is "near" the surface,
-    "far", or a "path", of `count` points or segments; or points of shape (n, 3), segments of shape
-    (n, 2, 3), which are rounded to single precision.
+    `mesh`, `unit` and `closed` as of `build`. `for_` is "closest" or "segment". `at` is "near" the
+    surface, "far", or a "path", of `count` points or segments; or points of shape (n, 3), segments
+    of shape (n, 2, 3), which are rounded to single precision.
+
+    Curves are measured for "closest". Their rows are of distances, of verdicts of `within`, and, of
+    a fence, of sides.
 
     Cost: a build for each structure, and each query against all triangles in double precision.
     `progress` is called as that of `build`, from another thread. Its exception, and Ctrl-C, end the
     call; threads that measure may work on for a while. Raises `BuildError` if the mesh or an option
     is refused.
     """
+    with Bar(progress) as tell:
+        found = _meshsweep.trade(_wanted(mesh, for_, at, count, unit, closed, tell))
+    rows = [_row(row) for row in found["rows"]]
+    return Trade(rows, found["not_built"], found["needles"])
+
+
+def choose(
+    mesh: Mesh,
+    for_: str = "closest",
+    *,
+    flash: int | None = None,
+    ram: int | None = None,
+    error: SupportsFloat | None = None,
+    rate: SupportsFloat | None = None,
+    cpu: tuple[str, SupportsFloat] | None = None,
+    at: str | ArrayLike = "near",
+    count: int = 1000,
+    progress: Progress = None,
+    unit: str | None = None,
+    closed: bool = False,
+) -> Choice:
+    """Builds the model that meets limits, as `meshsweep build` with limits.
+
+    `flash` is the most bytes of the blob, `ram` those of scratch, of what is kept between queries,
+    and of the processor's stack. `error` is the widest interval, in the mesh's unit. `rate` is the
+    number of queries a second on `cpu`, a processor and its clock in Hz, as ("m4f", 168e6); others
+    are "m7" and "m0". At least one limit is wanted. All else is as for `trade`, which measures.
+
+    Of the settings that meet all limits the one of the fewest undecided segments is chosen, then
+    with `error` the one of the fewest instructions, else the one of the smallest error. Of a fence
+    a setting of sides is chosen. Raises `BuildError`, which names the nearest setting, if none
+    meets the limits.
+    """
+    device: _meshsweep._Device = {
+        "flash": whole(flash, "flash", BuildError),
+        "ram": whole(ram, "ram", BuildError),
+        "error": None if error is None else checked(error, "error", BuildError),
+        "rate": None if rate is None else checked(rate, "rate", BuildError),
+        "cpu": None,
+    }
+    given_limits = [limit for limit in device.values() if limit is not None]
+    if not given_limits or 0 in given_limits:
+        raise BuildError("choose: one of flash, ram, error and rate is wanted, each above 0")
+    if cpu is not None:
+        name, clock = _processor(cpu)
+        device["cpu"] = name, clock
+    elif rate is not None:
+        raise BuildError('rate: it takes a processor, as cpu=("m4f", 168e6)')
+    with Bar(progress) as tell:
+        wanted = _wanted(mesh, for_, at, count, unit, closed, tell)
+        model, found = _meshsweep.choose(wanted, device)
+    second = None if found["second"] is None else _row(found["second"])
+    return Choice(Model(model), _row(found["first"]), second, found["needles"])
+
+
+def _processor(cpu: tuple[str, SupportsFloat]) -> tuple[str, float]:
+    try:
+        name, clock = cpu
+    except (TypeError, ValueError):
+        name, clock = "", 0
+    hertz = checked(clock, "cpu", BuildError)
+    if not isinstance(name, str) or not hertz:
+        raise BuildError(f'cpu: a name and a clock in Hz are wanted, as ("m4f", 168e6), not {cpu}')
+    return name, hertz
+
+
+def _wanted(
+    mesh: Mesh,
+    for_: str,
+    at: str | ArrayLike,
+    count: int,
+    unit: str | None,
+    closed: bool,
+    tell: Tell,
+) -> _meshsweep._Wanted:
+    """What is measured."""
     places: str | list[list[float]]
     if isinstance(at, str):
         places = at
@@ -99,11 +192,17 @@ def trade(
     most = whole(count, "count", BuildError)
     if not most:
         raise BuildError("count: at least 1 is wanted")
-    question, symbol = word(for_, "for_", BuildError) or str(for_), word(unit, "unit", BuildError)
-    with Bar(progress) as tell:
-        found = _meshsweep.trade(given(mesh), question, places, most, symbol, tell)
-    rows = []
-    for row in found["rows"]:
-        boards = [Instructions(**board) for board in row["instructions"]]
-        rows.append(TradeRow(**{**row, "instructions": {board.cpu: board for board in boards}}))
-    return Trade(rows, found["not_built"], found["needles"])
+    return {
+        "mesh": given(mesh),
+        "for_": word(for_, "for_", BuildError) or str(for_),
+        "at": places,
+        "count": most,
+        "unit": word(unit, "unit", BuildError),
+        "closed": yes_or_no(closed, "closed", BuildError),
+        "progress": tell,
+    }
+
+
+def _row(row: dict[str, Any]) -> TradeRow:
+    boards = [Instructions(**board) for board in row["instructions"]]
+    return TradeRow(**{**row, "instructions": {board.cpu: board for board in boards}})

@@ -75,7 +75,7 @@ fn ask_any(
 }
 
 /// Asks for all pairs of triangles that meet. Writes a row for each pair; one without triangles if
-/// there is none, or if pairs may be missing.
+/// there is none, or if pairs may be missing, as those of a cut blob are.
 fn ask_all(
     OverlapArgs { search, .. }: &OverlapArgs,
     models: Both<'_>,
@@ -102,10 +102,9 @@ fn ask_all(
                 write_row(out, query, contact, Some(pair.triangles), *work)?;
             }
             match ended {
-                Ended::Exact | Ended::Resolution if pairs.is_empty() => {
-                    write_row(out, query, APART, None, *work)
-                }
-                Ended::Exact | Ended::Resolution => Ok(()),
+                Ended::Exact if pairs.is_empty() => write_row(out, query, APART, None, *work),
+                // Without a pair a cut blob is near: its triangles have no numbers to list.
+                Ended::Exact | Ended::Resolution if !pairs.is_empty() => Ok(()),
                 _ => write_row(out, query, UNDECIDED, None, *work),
             }
         },

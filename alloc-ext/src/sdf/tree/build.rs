@@ -16,7 +16,7 @@ use crate::sdf::prove::{Errors, Proof, Prover};
 use crate::sdf::region::MARGIN;
 use crate::sdf::samples::{Sample, of_box};
 use crate::sdf::truth::{Side, Truth};
-use crate::sdf::widths::{NEAR, Widths};
+use crate::sdf::widths::{LEAST_WEIGHT, NEAR, Widths};
 use glam::DVec3;
 use meshsweep_core::internal::sdf::format::SdfHeader;
 use meshsweep_core::internal::sdf::format::layout::tree::{ENTRY_BYTES, MOST_ENTRIES, WIDTHS};
@@ -27,8 +27,8 @@ use meshsweep_core::{SdfKind, SdfLayout};
 const SLACK: f64 = 1e-4;
 const FLOOR: f64 = 3e-4;
 
-/// The least radius of a box, as a part of the leaf's width, if that is more. Large leaves have too
-/// many boxes of the other.
+/// The least radius of a box, as a part of the leaf's width, if that is more than the other. Else
+/// large leaves would be proved by too many boxes.
 const FLOOR_OF_WIDTH: f64 = 1.0 / 16.0;
 
 /// The same of a second proof, where widths are limited and the first makes a leaf wider. It saves
@@ -65,7 +65,8 @@ pub(in crate::sdf) struct Made {
 }
 
 impl Made {
-    /// How much of an error above is added for rounding and for how far the mesh may be off.
+    /// How far a query's value may be below and above the function, and the mesh from the input,
+    /// units.
     fn losses(&self, off: f64) -> [f64; 2] {
         losses(self.fitted.shape, self.of.half()).map(|loss| loss + off + MARGIN)
     }
@@ -80,7 +81,7 @@ impl Made {
     fn weight(&self, batch: &mut Batch, kind: SdfKind, near: f64) -> f64 {
         batch.fill(&self.samples, self.steps, kind, near);
         let sum: f64 = batch.weight.iter().map(|&weight| f64::from(weight)).sum();
-        (sum / batch.weight.len() as f64 + 1e-3) * self.volume()
+        (sum / batch.weight.len() as f64 + LEAST_WEIGHT) * self.volume()
     }
 
     /// In root cells.
@@ -190,7 +191,7 @@ impl Maker<'_> {
     /// A leaf, fitted at last.
     pub(super) fn made(&self, of: Box3) -> Made {
         let steps = STEPS[usize::from(of.half().max_element() > ROOT / 8.0 + 1.0)];
-        let samples = of_box(self.truth, of.corner(), 2.0 * of.half(), steps);
+        let samples = of_box(self.truth, [of.corner(), 2.0 * of.half()], steps);
         let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
         batch.fill(&samples, steps, self.truth.kind, self.near());
         let first = fitter.fit(&batch, of.half(), self.is_cut());
@@ -343,7 +344,8 @@ impl Maker<'_> {
             })
             .collect();
         let Some(scale) = scale.holding(&mut needed) else { return Ok(Err(Failure::NoRoom)) };
-        // The entries that were proved, and the widths that had to grow, have one book more.
+        // Some widths grew in the proof, so the book is made again. Each width is rounded up to a
+        // value of the new book, so the proofs still hold.
         let widths: Vec<u32> = needed.iter().map(|coded| coded.width).collect();
         let book: [u32; WIDTHS] = book(&widths, weights);
         if let Err(failure) = self.check_widths(leaves, scale, &needed, &book) {

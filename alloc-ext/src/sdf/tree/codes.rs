@@ -1,6 +1,6 @@
 //! Codes of the functions' values at the leaves' centres, and how they are read.
 
-use super::leaf::UNIT;
+use super::leaf::GRADIENT_STEP;
 use crate::sdf::region::MARGIN;
 use meshsweep_core::internal::sdf::format::layout::MOST_BASE;
 use meshsweep_core::internal::sdf::format::layout::tree::{MOST_CODE, MOST_STEP};
@@ -27,16 +27,16 @@ impl Scale {
     pub fn of(values: impl Iterator<Item = f64> + Clone) -> Option<Self> {
         let least = values.clone().fold(f64::INFINITY, f64::min);
         let most = values.fold(f64::NEG_INFINITY, f64::max);
-        let step = (most - least) / UNIT / (f64::from(MOST_CODE) - 2.0 * SPARE_CODES);
+        let step = (most - least) / GRADIENT_STEP / (f64::from(MOST_CODE) - 2.0 * SPARE_CODES);
         let step = step.ceil().max(1.0);
-        let base = (least - SPARE_CODES * step * UNIT).floor();
+        let base = (least - SPARE_CODES * step * GRADIENT_STEP).floor();
         let fits = step <= f64::from(MOST_STEP) && base.abs() <= f64::from(MOST_BASE);
         fits.then_some(Self { base: base as i32, step: step as u16 })
     }
 
     /// Units of a code.
     pub fn step(self) -> f64 {
-        f64::from(self.step) * UNIT
+        f64::from(self.step) * GRADIENT_STEP
     }
 
     pub fn value(self, code: i64) -> f64 {

@@ -5,7 +5,7 @@
 //! 16 KiB, and 1.4 % of the bytes for a width (*historical*).
 
 use super::grid::Batch;
-use super::leaf::{Shape, UNIT};
+use super::leaf::{GRADIENT_STEP, Shape};
 use crate::sdf::prove::Errors;
 use glam::DVec3;
 use meshsweep_core::internal::sdf::format::layout::tree::ONE;
@@ -91,8 +91,8 @@ impl Fitter {
         if batch.most.iter().all(|&most| most == f32::NEG_INFINITY) {
             return self.measure(batch, half, Shape::default(), is_cut);
         }
-        let gradient =
-            plane(batch, half).map(|slope| ((slope / UNIT).round() as i32).clamp(-ONE, ONE));
+        let gradient = plane(batch, half)
+            .map(|slope| ((slope / GRADIENT_STEP).round() as i32).clamp(-ONE, ONE));
         let curvature = curvature(batch, half, gradient);
         self.measure(batch, half, Shape { gradient, curvature }, is_cut)
     }
@@ -100,7 +100,6 @@ impl Fitter {
     /// A better one, from a function.
     pub fn polish(&mut self, batch: &Batch, half: DVec3, is_cut: bool, from: Fitted) -> Fitted {
         let mut best = from;
-        // The function itself costs nothing where nothing is asked.
         for _ in 0..ROUNDS {
             let before = best.cost;
             for step in &STEPS_OF_ONE {

@@ -4,10 +4,9 @@ use super::partition::{Box3, LEVELS};
 use crate::error::BuildError;
 use crate::progress::Watch;
 use crate::sdf::domain::{Domain, ROOT};
-use crate::sdf::samples::{Sample, of_box};
+use crate::sdf::samples::{Sample, of_boxes};
 use crate::sdf::truth::{Side, Truth};
 use crate::sdf::widths::weight;
-use glam::DVec3;
 use meshsweep_core::SdfKind;
 
 /// Steps of the grid along a side of a root cell: two along that of the smallest box.
@@ -82,20 +81,12 @@ impl Grid {
     ) -> Result<Self, BuildError> {
         let blocks = domain.cells.map(|cells| cells * STEPS / AT_ONCE);
         let side = ROOT * AT_ONCE as f64 / STEPS as f64;
-        let found = watch.map(blocks.iter().product(), |number| {
-            let at = unranked(number, blocks).map(|at| at as f64);
-            of_box(truth, DVec3::from(at) * side, DVec3::splat(side), AT_ONCE)
-        })?;
+        let samples = of_boxes(truth, blocks, side, AT_ONCE, watch)?;
         let places = blocks.map(|blocks| blocks * AT_ONCE + 1);
         let mut all = Batch::default();
         all.clear(places.map(|places| places - 1));
-        for number in 0..places.iter().product() {
-            let at = unranked(number, places);
-            // The last place of a block is the first of the next, but for the last block.
-            let block = [0, 1, 2].map(|axis| (at[axis] / AT_ONCE).min(blocks[axis] - 1));
-            let within = [0, 1, 2].map(|axis| at[axis] - AT_ONCE * block[axis]);
-            let samples = &found[ranked(block, blocks)];
-            all.push(samples[ranked(within, [AT_ONCE + 1; 3])], truth.kind, near);
+        for sample in samples {
+            all.push(sample, truth.kind, near);
         }
         Ok(Self { places, all })
     }
@@ -127,12 +118,4 @@ impl Grid {
             }
         }
     }
-}
-
-pub(super) fn unranked(number: usize, [x, y, _]: [usize; 3]) -> [usize; 3] {
-    [number % x, number / x % y, number / (x * y)]
-}
-
-fn ranked([i, j, k]: [usize; 3], [x, y, _]: [usize; 3]) -> usize {
-    i + x * (j + y * k)
 }

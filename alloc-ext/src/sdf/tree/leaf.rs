@@ -6,8 +6,8 @@ use meshsweep_core::internal::sdf::format::layout::tree::{
     ENTRY_BYTES, IS_LEAF, MOST_CODE, PART, PART_OF, ROOT_BITS, loss,
 };
 
-/// Units that one of a gradient's entries is over one unit, and one of a code's step: about a 31st.
-pub(super) const UNIT: f64 = PART as f64 / PART_OF as f64;
+/// One step of a gradient's component, and 1 of a code's step in units: about a 31st.
+pub(super) const GRADIENT_STEP: f64 = PART as f64 / PART_OF as f64;
 
 /// A plane through 0 at the box's centre, and a curvature across it: the stored numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,12 +19,12 @@ pub(super) struct Shape {
 impl Shape {
     /// The gradient, as a vector of units a unit.
     fn slope(self) -> DVec3 {
-        DVec3::from(self.gradient.map(f64::from)) * UNIT
+        DVec3::from(self.gradient.map(f64::from)) * GRADIENT_STEP
     }
 
     /// Of |x|² − (g·x/32)².
     fn bend(self, half: DVec3) -> f64 {
-        UNIT * f64::from(self.curvature) / (2.0 * half.max_element())
+        GRADIENT_STEP * f64::from(self.curvature) / (2.0 * half.max_element())
     }
 
     /// Coefficients of x, y, z, xx, yy, zz, yz, zx, xy in a box with these half sides.

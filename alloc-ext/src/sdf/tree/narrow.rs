@@ -8,7 +8,7 @@
 use super::build::{Failure, Made, Maker, Tree, most_entries};
 use super::codes::Scale;
 use super::fit::Fitter;
-use super::grid::{Batch, Grid, unranked};
+use super::grid::{Batch, Grid};
 use super::partition::{BOXES, Box3, LEVELS, boxes, fewest};
 use super::search::entries;
 use crate::error::BuildError;
@@ -56,7 +56,7 @@ impl Boxes<'_> {
         let domain = self.maker.domain;
         let found = watch.map(domain.cell_count(), |root| {
             let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
-            boxes(unranked(root, domain.cells), LEVELS)
+            boxes(domain.cell(root), LEVELS)
                 .iter()
                 .filter(|(_, of)| of.level == [LEVELS; 3])
                 .map(|(_, of)| self.taken(of, &mut batch, &mut fitter))
@@ -72,8 +72,8 @@ impl Boxes<'_> {
             let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
             let mut costs = vec![0f32; BOXES];
             for level in 0..=LEVELS {
-                for (number, of) in boxes(unranked(root, domain.cells), level) {
-                    let is_known = of.whole_of().is_some_and(|whole| costs[whole] == 0.0);
+                for (number, of) in boxes(domain.cell(root), level) {
+                    let is_known = of.parent().is_some_and(|parent| costs[parent] == 0.0);
                     if !is_known && self.taken(&of, &mut batch, &mut fitter) > 1.0 {
                         costs[number] = f32::INFINITY;
                     }
@@ -98,7 +98,7 @@ pub(in crate::sdf) fn build(
     let step = Scale::of(grid.values()).map_or(0.0, Scale::step);
     let all = Boxes { maker, grid, step };
     let mut widest = all.smallest(watch.part(0.2, 0.25))?;
-    // A box that holds a box is no narrower.
+    // A box is taken to be no narrower than the boxes in it. This decides a refusal alone.
     if widest > 1.0 {
         return Ok(Some(Narrow::Taken(widest)));
     }
@@ -106,8 +106,7 @@ pub(in crate::sdf) fn build(
     let mut made: HashMap<Box3, Made> = HashMap::new();
     // Each round has less left to do than the one before.
     let (mut begun, mut rest) = (0.5, 0.5);
-    let root =
-        |of: &Box3| of.root[0] + domain.cells[0] * (of.root[1] + domain.cells[1] * of.root[2]);
+    let root = |of: &Box3| domain.cell_number(of.root);
     loop {
         rest *= 0.5;
         let watch = watch.part(begun, begun + rest);

@@ -45,12 +45,12 @@ impl Box3 {
     }
 
     /// The number of the box that this is a half of, along the axis that is halved most.
-    pub fn whole_of(&self) -> Option<usize> {
+    pub fn parent(&self) -> Option<usize> {
         let axis = (0..3).max_by_key(|&axis| self.level[axis])?;
-        let mut whole = *self;
-        whole.level[axis] = whole.level[axis].checked_sub(1)?;
-        whole.at[axis] /= 2;
-        Some(whole.number())
+        let mut parent = *self;
+        parent.level[axis] = parent.level[axis].checked_sub(1)?;
+        parent.at[axis] /= 2;
+        Some(parent.number())
     }
 
     /// Least place, with so many steps along a root cell's side.
@@ -89,8 +89,8 @@ impl Box3 {
     }
 }
 
-/// The boxes of a root cell that are halved so often along the axis that is halved most, those
-/// after the boxes that they are halves of.
+/// The boxes of a root cell that are halved so often along the axis that is halved most. Parents
+/// stand before their halves.
 pub(super) fn boxes(root: [usize; 3], most: usize) -> Vec<(usize, Box3)> {
     let all = (0..BOXES).map(move |number| (number, Box3::by_number(root, number)));
     let mut kept: Vec<(usize, Box3)> =
@@ -171,9 +171,9 @@ fn choose(costs: &[f32], order: &[u32], most: usize, price: f32) -> Choice {
     choice
 }
 
-/// The partition of all root cells into at most so many entries, and the least cost: by the costs
-/// of all boxes of each. No axis is halved more often than `most` times. Also the price of an
-/// entry.
+/// The partition of least cost of all root cells into at most so many entries, from the costs of
+/// all boxes of each, and the price of an entry that gave it. The price is a Lagrange multiplier,
+/// found by halving its range. No axis is halved more often than `most` times.
 pub(super) fn partition(
     costs: &[Vec<f32>],
     most: usize,

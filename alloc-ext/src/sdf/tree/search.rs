@@ -1,7 +1,7 @@
 //! The search of the best partition, and its entries.
 
 use super::fit::Fitter;
-use super::grid::{Batch, Grid, unranked};
+use super::grid::{Batch, Grid};
 use super::partition::{BOXES, Box3, Choice, LEVELS, boxes, partition};
 use crate::error::BuildError;
 use crate::progress::Watch;
@@ -11,12 +11,12 @@ use crate::sdf::widths::NEAR;
 use meshsweep_core::SdfKind;
 use meshsweep_core::internal::sdf::format::layout::tree::ENTRY_BYTES;
 
-/// Part of an entry's price that a box costs at least for its halves to be fitted. The price falls
-/// while smaller boxes are looked at.
+/// Part of an entry's price that a box costs at least for its halves to be fitted. Of a cheaper one
+/// no half saves the price of its entry. The price falls while smaller boxes are looked at.
 const WORTH: f32 = 0.3;
 
-/// The partition of each root cell. Boxes are fitted by how often they are halved, and those of
-/// cheap boxes are not.
+/// The partition of each root cell. Boxes are fitted from large to small. Halves of a cheap box
+/// get half of its cost without a fit.
 ///
 /// # Errors
 /// [`BuildError::Cancelled`].
@@ -38,9 +38,9 @@ pub(super) fn search(
         costs = watch.part(part(level), part(level + 1)).map(roots, |root| {
             let (mut batch, mut fitter) = (Batch::default(), Fitter::default());
             let mut costs = costs[root].clone();
-            for (number, of) in boxes(unranked(root, domain.cells), level) {
+            for (number, of) in boxes(domain.cell(root), level) {
                 // A box that costs much less than an entry is not worth halving.
-                if let Some(whole) = of.whole_of().map(|whole| costs[whole])
+                if let Some(whole) = of.parent().map(|parent| costs[parent])
                     && whole < WORTH * price
                 {
                     costs[number] = 0.5 * whole;
@@ -76,7 +76,7 @@ pub(super) fn entries(domain: &Domain, choices: &[Choice]) -> Option<Laid> {
     let mut leaves = Vec::new();
     let mut steps = 0;
     for (root, choice) in choices.iter().enumerate() {
-        let mut open = vec![(root, Box3::whole(unranked(root, domain.cells)), 1)];
+        let mut open = vec![(root, Box3::whole(domain.cell(root)), 1)];
         while let Some((number, of, depth)) = open.pop() {
             steps = steps.max(depth);
             let axes = choice.axes(&of);

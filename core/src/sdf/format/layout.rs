@@ -25,14 +25,22 @@ pub const fn value_loss(step: u16) -> u32 {
 
 /// The numbers of a tree: entries of five bytes.
 ///
-/// A node: the number of entries between it and its first child in bytes 0 and 1, the axes that it
-/// halves in byte 3 (bits 0 to 2: x, y, z), 0 in bytes 2 and 4. Its children stand one after the
-/// other; those on the upper side of an axis after those on the lower, x fastest among the axes
-/// that are halved.
+/// | bits of a node | what stands there |
+/// | --- | --- |
+/// | 0 to 15 | entries between the node and its first child |
+/// | 24 to 26 | the axes that it halves: x, y, z |
+/// | the others | 0 |
 ///
-/// A leaf: 40 bits, from the lowest: three entries g of the gradient, the curvature k, six bits
-/// each with a sign; the width's number in the book, five bits; two bits of the code, 1, the other
-/// eight bits of the code.
+/// Children stand one after the other, x fastest among the axes that are halved. On each axis the
+/// lower side stands first.
+///
+/// | bits of a leaf | what stands there |
+/// | --- | --- |
+/// | 0 to 17 | components g of the gradient, six bits each with a sign |
+/// | 18 to 23 | the curvature k, six bits with a sign |
+/// | 24 to 28 | index of the width in the book |
+/// | 29, 30 and 32 to 39 | the code, lowest bits first |
+/// | 31 | 1 |
 pub mod tree {
     /// Bytes of an entry.
     pub const ENTRY_BYTES: usize = 5;
@@ -56,9 +64,10 @@ pub mod tree {
     pub const MOST_STEP: u16 = 1 << 14;
     /// Greatest code.
     pub const MOST_CODE: u32 = 1023;
-    /// Greatest entry of a gradient: 1 but for 2^-15.
+    /// Greatest component of a gradient: a slope of 1 but for 2^-15.
     pub const ONE: i32 = 31;
-    /// What 1 of a code's step and of a gradient is, times [`PART_OF`]: about a 31st.
+    /// One step of a gradient's component, and 1 of a code's step in units, both times
+    /// [`PART_OF`]: so that 31 of them are 1 but for 2^-15.
     pub const PART: i32 = 1057;
     /// See [`PART`].
     pub const PART_OF: i32 = 1 << 15;
@@ -70,11 +79,16 @@ pub mod tree {
     /// gradient of 32 in three half cells, and a curvature of 32 over 2¹⁶: less than 2^20.
     pub const MOST_VALUE: u32 = 1 << 20;
 
+    /// What the bend's shift loses, in 2^-10 of a unit: less than one step of the sum, 33.03.
+    const BEND_SHIFT: u32 = 36;
+    /// What the two shifts of the sum lose: less than 16 of its steps and a unit, 1552.5.
+    const LAST_SHIFTS: u32 = 1664;
+
     /// How much a query's value may be below and above the leaf's function, in 2^-10 of a unit: of
     /// a leaf with this curvature and this least level. All three ways count as the longest one.
     ///
     /// A square of n whole steps of 2^cut stands for one of less than (n + 1)², n below 2^11, or
-    /// along the gradient below 2^13. The last shifts lose less than 1.6 units.
+    /// along the gradient below 2^13.
     pub fn loss(curvature: i32, level: u32) -> [u32; 2] {
         let cut = SQUARE_BITS - level / 2;
         // Of the ways, of which one is 2^15 over the level at most, in steps; and along the
@@ -86,7 +100,7 @@ pub mod tree {
         let part = |squares: u32| (bend * squares).div_ceil(1 << (16 - level - 2 * cut - 5));
         // 34 is above 1024 · 1057 / 2^15 = 33.03.
         let in_units = |squares: u32| part(squares) * 34 / 32 + 1;
-        [in_units(ways + along) + 36 + 1664, in_units(ways + along)]
+        [in_units(ways + along) + BEND_SHIFT + LAST_SHIFTS, in_units(ways + along)]
     }
 }
 

@@ -6,9 +6,17 @@ rows, measured one after the other. Wrong answers are counted by brute force in 
 rows: a distance that is off by more than 1e-6 of the mesh's diagonal, a sign that is another one
 where the surface is farther than that. Of pairs there is no brute force: those are counted whose
 distance is outside of meshsweep's interval by more than that.
+
+Each time is the best of three. trimesh is timed on few rows. The Rust batch is what meshsweep's
+closest points call, in a process of its own: `cargo xtask race --batch`.
 """
 
+import importlib.metadata
+import os
+import pathlib
+import subprocess
 import sys
+import tempfile
 import time
 
 import coal
@@ -18,7 +26,10 @@ import meshsweep
 import numpy as np
 import trimesh
 
-ROWS, CHECKED, SLOW, PAIRS = 200_000, 400, 2_000, 300
+ROWS, CHECKED, SLOW, PAIRS, BATCH = 200_000, 400, 2_000, 300, 1_000_000
+
+
+PACKAGES = ("libigl", "trimesh", "rtree", "python-fcl", "coal")
 
 
 def timed(ask):
@@ -85,8 +96,9 @@ def race(file):
     print("| question | package | time / meshsweep | wrong of checked |")
     print("| --- | --- | --- | --- |")
 
-    def row(question, package, ratio, bad, of):
-        print(f"| {question} | {package} | {ratio:.2f} | {bad} of {of} |", flush=True)
+    def row(question, package, ratio, bad, of=None):
+        found = f"{bad} of {of}" if of else bad
+        print(f"| {question} | {package} | {ratio:.2f} | {found} |", flush=True)
 
     ours, near = timed(lambda: part.closest_point(points))
     outside = (near.lower[:CHECKED] > truth + 1e-12) | (near.upper[:CHECKED] < truth - 1e-12)
@@ -95,6 +107,11 @@ def race(file):
     row("closest point", "libigl", took / ours, wrong(np.sqrt(found[0])), CHECKED)
     took, found = timed(lambda: trimesh.proximity.closest_point(mesh, wide[:SLOW]))
     row("closest point", "trimesh", took * ROWS / SLOW / ours, wrong(found[1]), CHECKED)
+
+    many = rng.uniform(low - 0.25 * (high - low), high + 0.25 * (high - low), (BATCH, 3))
+    many = many.astype(np.float32)
+    ours, _ = timed(lambda: part.closest_point(many))
+    row(f"closest point, {BATCH:,}", "the Rust batch", by_rust(part, many) / ours, "–")
 
     ours, near = timed(lambda: part.signed_distance(points))
     decided = near.side[:CHECKED] != 0
@@ -115,7 +132,7 @@ def race(file):
     way *= (diagonal * rng.uniform(0.2, 1.2, PAIRS) / np.linalg.norm(way, axis=1))[:, None]
     poses[:, :, 3] = middle + way - np.einsum("nij,j->ni", turns, middle)
     ours, near = timed(lambda: part.distance_to(part, poses))
-    row("distance of two", "meshsweep", 1, 0, PAIRS)
+    row("distance of two", "meshsweep", 1, "–")
 
     def off(distance):
         beyond = (distance < near.lower - limit) | (distance > near.upper + limit)
@@ -125,6 +142,16 @@ def race(file):
     row("distance of two", "python-fcl", took / ours, off(found), PAIRS)
     took, found = timed(lambda: by_coal(vertices, faces, poses))
     row("distance of two", "coal", took / ours, off(found), PAIRS)
+
+
+def by_rust(part, points):
+    """Seconds of exact closest points by the Rust batch."""
+    with tempfile.TemporaryDirectory() as folder:
+        blob, raw = (pathlib.Path(folder, name) for name in ("part.msw", "points.f32"))
+        part.save(blob)
+        points.tofile(raw)
+        words = [os.environ["MESHSWEEP_LAB"], "race", "--batch", blob, raw]
+        return float(subprocess.run(words, check=True, capture_output=True, text=True).stdout)
 
 
 def by_fcl(vertices, faces, poses):
@@ -158,5 +185,6 @@ def by_coal(vertices, faces, poses):
     return np.array(found)
 
 
+print(", ".join(f"{name} {importlib.metadata.version(name)}" for name in PACKAGES))
 for mesh_file in sys.argv[1:]:
     race(mesh_file)
