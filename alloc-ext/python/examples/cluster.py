@@ -33,8 +33,8 @@ def ask_chunk(model, points, answers, begin, end):
 def ask(client, blob, points, answers, chunk=CHUNK, tell=None):
     """Closest points of all rows of `points`, an .npy file, into `answers`, another."""
     rows = np.load(points, mmap_mode="r")
-    dtype = meshsweep.load(blob).closest_point(rows[:1]).dtype
-    np.lib.format.open_memmap(answers, "w+", np.dtype(dtype.descr), (len(rows),)).flush()
+    dtype = np.dtype((np.void, meshsweep.load(blob).closest_point(rows[:1]).dtype))
+    np.lib.format.open_memmap(answers, "w+", dtype, (len(rows),)).flush()
     begins = range(0, len(rows), chunk)
     blob, *names = [str(Path(file).resolve()) for file in (blob, points, answers)]
     # A task: each worker gets the model once, and a lost one is loaded again.

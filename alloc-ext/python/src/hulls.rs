@@ -1,6 +1,6 @@
 //! The geometry of hulls.
 
-use crate::error::{BuildError, MeshsweepError, missing, of_query};
+use crate::error::{MeshsweepError, missing, of_query, refused};
 use crate::model::Model;
 use meshsweep::cut::{Keep, cut_blob};
 use meshsweep::hull::{enclosing_input, mesh_of, sticks_out_note};
@@ -123,6 +123,6 @@ impl Model {
         let mut keep = Keep::default();
         (keep.level, keep.triboxes, keep.tight) = (level, triboxes, tight);
         let cut = py.detach(|| cut_blob(self.blob(), &keep));
-        Self::of(cut.map_err(|error| BuildError::new_err(error.to_string()))?, Vec::new())
+        Self::of(cut.map_err(|error| refused(&error))?, Vec::new())
     }
 }

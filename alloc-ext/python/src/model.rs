@@ -1,6 +1,6 @@
 //! An opened blob: what it holds, and which structure answers.
 
-use crate::error::{missing, of_open};
+use crate::error::{in_python, missing, of_open};
 use meshsweep::builder::Built;
 use meshsweep::bvh::FastBvh;
 use meshsweep::distances::{Distances, has_sides};
@@ -41,7 +41,8 @@ pub fn budget((rel, abs, steps): (f32, f32, Option<u32>)) -> Budget {
 impl Model {
     /// The model of a build, with its report.
     pub fn built(built: Built) -> PyResult<Self> {
-        let report = built.report().map(|note| (note.topic.name(), note.text.clone())).collect();
+        let told = built.report().map(|note| (note.topic.name(), in_python(&note.text)));
+        let report = told.collect();
         Self::of(built.into_bytes(), report)
     }
 

@@ -93,6 +93,39 @@ def test_options_are_refused_by_name():
             meshsweep.build(sphere(), **options)
 
 
+def test_no_refusal_speaks_of_the_programs_options_or_of_rust(fixtures):
+    part, fence = meshsweep.build(sphere()), fixtures / "fence.csv"
+    ajar = sphere()[0], sphere()[1][1:]
+    half = np.diag([0.5, 1, 1, 1])
+    for ask, words in [
+        (lambda: meshsweep.build(sphere(), "tight", tight_faces=[0]), "tight_faces 0: a number"),
+        (lambda: meshsweep.build(sphere(), "sdf", sdf_error=-1), "sdf_error -1: a finite"),
+        (lambda: meshsweep.build(sphere(), closed=True), 'closed=True is .*; add for_="curve"'),
+        (lambda: meshsweep.build(sphere(), frames=["a.ply"]), 'add for_="deform"'),
+        (lambda: meshsweep.build(sphere(), base_faces=9), "add hull to for_"),
+        (lambda: meshsweep.build(sphere(), "tight", slack=1, void_percent=2), "and void_percent"),
+        (lambda: meshsweep.build(fence, "closest"), 'serves for_="curve" only'),
+        (lambda: meshsweep.build(ajar, "hull"), 'the mesh: .*\n.*\n.* for_="sweep,deform"$'),
+        (lambda: meshsweep.build(ajar, "sdf"), 'ask for sdf_kind="surface"'),
+        (lambda: meshsweep.build("a --b--c.stl"), "b--c.stl: cannot be read"),
+        (lambda: part.cut(level=0), 'build it with for_="hull"'),
+        (lambda: part.distance_to(part, half), "row 0: the pose's matrix is no rotation, or it is"),
+        (lambda: part.tribox_overlap(part), 'with for_="triboxes"'),
+        (
+            lambda: part.first_hit([1e30, 0, 0], [1e30, 1, 0]),
+            "row 0: a point.* too far away: clip segm",
+        ),
+        (lambda: meshsweep.choose(sphere(6, 8), flash=10), "needs flash .* instead of 10"),
+        (lambda: meshsweep.hausdorff(sphere(), (np.zeros((0, 3)), np.zeros((0, 3), int))), "b: "),
+    ]:
+        with pytest.raises(meshsweep.MeshsweepError, match=words) as refused:
+            ask()
+        said = str(refused.value).replace("b--c.stl", "")
+        assert not [word for word in ["--", "::", "(memory)", "joint"] if word in said], said
+    notes = meshsweep.build(sphere(), unit="mm").report
+    assert not any("--" in note.text for note in notes)
+
+
 def test_questions_are_refused_with_the_row_and_the_word_to_build_with():
     part = meshsweep.build(sphere(), "closest")
     points = np.zeros((5, 3), np.float32)
@@ -160,6 +193,20 @@ def test_arguments_of_other_kinds_are_told_what_is_wanted():
         meshsweep.build(scene)
     with pytest.raises(meshsweep.BuildError, match="masked"):
         meshsweep.build((np.ma.array(sphere()[0]), sphere()[1]))
+
+
+def test_fields_of_records_are_aligned():
+    dtypes = [of for of in vars(meshsweep._records).values() if isinstance(of, np.dtype)]
+    assert len(dtypes) > 20 and all(of.isalignedstruct for of in dtypes)
+    part = meshsweep.build(sphere(), "closest,segment,winding")
+    points = np.random.default_rng(5).uniform(-2, 2, (7, 3)).astype(np.float32)
+    for found in [
+        part.closest_point(points),
+        part.nearest(points, 3),
+        part.first_hit(points, -points),
+    ]:
+        assert all(found[name].flags.aligned for name in found.dtype.names)
+        assert (found.triangle >= -1).all() and (found.triangle < len(sphere()[1])).all()
 
 
 def test_rows_of_every_layout_give_the_same_answers():
@@ -362,6 +409,12 @@ def test_the_tour_shows_a_part(fixtures):
     assert "clear, proved" in shown and "100,000 closest points" in shown
     bad = subprocess.run([*run[:-1], "nowhere.stl"], capture_output=True, text=True, check=False)
     assert bad.returncode == 1 and "nowhere.stl" in bad.stderr
+    for other in sorted(map(str, [*fixtures.glob("*.msw"), fixtures / "fence.csv"])):
+        run = [sys.executable, "-m", "meshsweep", other]
+        shown = subprocess.run(run, capture_output=True, text=True, check=True).stdout
+        assert " bytes for " in shown and ("box " in shown or "knows no bounds" in shown)
+    told = subprocess.run([*run[:-1], "--help"], capture_output=True, text=True, check=True)
+    assert "usage" in told.stdout and not told.stderr
 
 
 def test_the_lines_of_the_readme_run(tmp_path, monkeypatch, fixtures):

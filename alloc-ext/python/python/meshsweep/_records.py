@@ -1,5 +1,6 @@
 """Answers as NumPy records. `src/*.rs` writes them in this order."""
 
+import functools
 from collections.abc import Callable, Sequence
 from enum import IntEnum
 from typing import Any, SupportsIndex, cast, overload
@@ -9,50 +10,52 @@ from numpy.typing import NDArray
 
 Records = np.recarray[Any, Any]
 
+# Fields are where a structure in C has them, so that loops over one find it aligned.
+_record = functools.partial(np.dtype, align=True)
 _INTERVAL = [("lower", "f4"), ("upper", "f4")]
 _END = [("ended", "u1"), ("work", "u4")]
 _POINT = ("point", "f4", 3)
 _SEGMENT = [("polyline", "i8"), ("segment", "i8")]
 
-CLOSEST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), *_END])
-CLOSEST_ON_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END])
-SIGNED = np.dtype([*_INTERVAL, ("side", "i1"), _POINT, ("triangle", "i8"), *_END])
-SIGNED_OF_FENCE = np.dtype(
+CLOSEST = _record([*_INTERVAL, _POINT, ("triangle", "i8"), *_END])
+CLOSEST_ON_CURVE = _record([*_INTERVAL, _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END])
+SIGNED = _record([*_INTERVAL, ("side", "i1"), _POINT, ("triangle", "i8"), *_END])
+SIGNED_OF_FENCE = _record(
     [*_INTERVAL, ("side", "i1"), _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END]
 )
-WITHIN_OF_CURVE = np.dtype([("verdict", "u1"), *_SEGMENT, *_END])
-NEAREST_ON_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT])
-ALL_WITHIN_OF_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT, ("is_certain", "?")])
-WITHIN = np.dtype([("verdict", "u1"), ("triangle", "i8"), *_END])
-NEAREST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8")])
-ALL_WITHIN = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), ("is_certain", "?")])
-WINDING = np.dtype([*_INTERVAL, ("side", "i1"), *_END])
-FIRST_HIT = np.dtype(
+WITHIN_OF_CURVE = _record([("verdict", "u1"), *_SEGMENT, *_END])
+NEAREST_ON_CURVE = _record([*_INTERVAL, _POINT, *_SEGMENT])
+ALL_WITHIN_OF_CURVE = _record([*_INTERVAL, _POINT, *_SEGMENT, ("is_certain", "?")])
+WITHIN = _record([("verdict", "u1"), ("triangle", "i8"), *_END])
+NEAREST = _record([*_INTERVAL, _POINT, ("triangle", "i8")])
+ALL_WITHIN = _record([*_INTERVAL, _POINT, ("triangle", "i8"), ("is_certain", "?")])
+WINDING = _record([*_INTERVAL, ("side", "i1"), *_END])
+FIRST_HIT = _record(
     [("verdict", "u1"), ("t_lower", "f4"), ("t_upper", "f4"), _POINT, ("triangle", "i8"), *_END]
 )
-DECIDED = np.dtype([("verdict", "u1"), *_END])
-ALL_HITS = np.dtype([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")])
-BOUNDS = np.dtype([*_INTERVAL, *_END])
-SIGNED_BOUNDS = np.dtype([*_INTERVAL, ("side", "i1"), *_END])
-FIELD = np.dtype([*_INTERVAL, ("side", "i1"), ("gradient", "f4", 3)])
-SOLID = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangle", "i8"), *_END])
-PAIR = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END])
-MOVED = np.dtype(
+DECIDED = _record([("verdict", "u1"), *_END])
+ALL_HITS = _record([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")])
+BOUNDS = _record([*_INTERVAL, *_END])
+SIGNED_BOUNDS = _record([*_INTERVAL, ("side", "i1"), *_END])
+FIELD = _record([*_INTERVAL, ("side", "i1"), ("gradient", "f4", 3)])
+SOLID = _record([*_INTERVAL, ("points", "f4", (2, 3)), ("triangle", "i8"), *_END])
+PAIR = _record([*_INTERVAL, ("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END])
+MOVED = _record(
     [
         *[("verdict", "u1"), ("clear_until", "f4")],
         *[("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END],
     ]
 )
-MEETS = np.dtype([("verdict", "u1"), ("triangles", "i8", 2), *_END])
-OVERLAP = np.dtype([("triangles", "i8", 2), ("is_certain", "?")])
-PENETRATION = np.dtype(
+MEETS = _record([("verdict", "u1"), ("triangles", "i8", 2), *_END])
+OVERLAP = _record([("triangles", "i8", 2), ("is_certain", "?")])
+PENETRATION = _record(
     [("relation", "u1"), *_INTERVAL, ("apart", "f4", 3), ("deepest", "f4", 3), *_END]
 )
-TRIBOX = np.dtype([("lower", "f4"), ("tribox", "i8"), *_END])
-TRIBOX_HIT = np.dtype([("verdict", "u1"), ("t_lower", "f4"), ("tribox", "i8"), *_END])
-TRIBOX_PAIR = np.dtype([("verdict", "u1"), ("triboxes", "i8", 2), *_END])
-CANDIDATE = np.dtype([("triboxes", "i8", 2)])
-FACING = np.dtype([("triangle", "i8")])
+TRIBOX = _record([("lower", "f4"), ("tribox", "i8"), *_END])
+TRIBOX_HIT = _record([("verdict", "u1"), ("t_lower", "f4"), ("tribox", "i8"), *_END])
+TRIBOX_PAIR = _record([("verdict", "u1"), ("triboxes", "i8", 2), *_END])
+CANDIDATE = _record([("triboxes", "i8", 2)])
+FACING = _record([("triangle", "i8")])
 
 DIRECTIONS = np.array(
     [
