@@ -106,7 +106,7 @@ def test_no_refusal_speaks_of_the_programs_options_or_of_rust(fixtures):
         (lambda: meshsweep.build(sphere(), "tight", slack=1, void_percent=2), "and void_percent"),
         (lambda: meshsweep.build(fence, "closest"), 'serves for_="curve" only'),
         (lambda: meshsweep.build(ajar, "hull"), 'the mesh: .*\n.*\n.* for_="sweep,deform"$'),
-        (lambda: meshsweep.build(ajar, "sdf"), 'ask for sdf_kind="surface"'),
+        (lambda: meshsweep.build(ajar, "sdf", sdf_kind="signed"), 'ask for sdf_kind="surface"'),
         (lambda: meshsweep.build("a --b--c.stl"), "b--c.stl: cannot be read"),
         (lambda: part.cut(level=0), 'build it with for_="hull"'),
         (lambda: part.distance_to(part, half), "row 0: the pose's matrix is no rotation, or it is"),
