@@ -117,9 +117,9 @@ def test_the_choice_is_the_best_of_the_settings_that_meet_the_limits():
         clock = 2000.1 * min(of(row, cpu).at_most for row in rows)
         found = meshsweep.choose(mesh, rate=1000, cpu=(name, clock), **how).first
         assert of(found, cpu).at_most * 2000 <= clock
-        with pytest.raises(meshsweep.BuildError, match="--rate 500Hz instead of 1000Hz"):
+        with pytest.raises(meshsweep.BuildError, match="rate 500Hz instead of 1000Hz"):
             meshsweep.choose(mesh, rate=1000, cpu=(name, clock / 2), **how)
-    with pytest.raises(meshsweep.BuildError, match=r"which needs --flash .* instead of 10"):
+    with pytest.raises(meshsweep.BuildError, match=r"which needs flash .* instead of 10"):
         meshsweep.choose(mesh, flash=10, **how)
 
 

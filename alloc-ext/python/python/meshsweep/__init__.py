@@ -7,10 +7,11 @@
 >>> part.save("part.msw")
 
 Lengths are in the mesh's unit. Questions take rows of an array of shape (n, 3) and give records of
-shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. Of curves in the plane
-z = 0 they take shape (n, 2) too. They run on all cores and without the interpreter's lock; Ctrl-C
-ends them. Do not write to an array while a question about it runs. The bits of the answers are
-those that firmware computes.
+shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. Fields
+are aligned, and copies have any bytes between them: compare records by `==`. Of curves in the plane
+z = 0 questions take shape (n, 2) too. They run on all cores and without the interpreter's lock;
+Ctrl-C ends them. Do not write to an array while a question about it runs. The bits of the answers
+are those that firmware computes.
 
 **Rounding.** Questions are asked in single precision. Points in double precision are rounded first,
 and intervals of distances, sides and verdicts about one distance are widened by that, so that they

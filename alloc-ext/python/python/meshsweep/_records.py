@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 Records = np.recarray[Any, Any]
 
-# Fields are where a structure in C has them, so that loops over one find it aligned.
+# Fields are where a structure in C has them, so that loops over one find it aligned. Bytes between
+# them are 0 in answers, and any in copies that NumPy makes.
 _record = functools.partial(np.dtype, align=True)
 _INTERVAL = [("lower", "f4"), ("upper", "f4")]
 _END = [("ended", "u1"), ("work", "u4")]

@@ -93,7 +93,9 @@ def asked(
     found.work[:] = near.work[:] = np.minimum(work, np.uint64(2**32 - 1))
     is_near = (near.verdict == Verdict.YES) & (distance >= slack)
     is_open = (found.verdict == Verdict.YES) & ~is_near
-    found[is_near] = near[is_near]
+    # By fields: a copy of whole records has any bytes between them.
+    for name in found.dtype.names or ():
+        found[name][is_near] = near[name][is_near]
     found.verdict[is_open] = Verdict.UNDECIDED
     found.ended[is_open] = Ended.RESOLUTION
     for witness in {"triangle", "triangles", "polyline", "segment"} & {*(found.dtype.names or ())}:
