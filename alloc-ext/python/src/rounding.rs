@@ -27,7 +27,7 @@ impl Way {
     }
 
     /// Of a ray whose origin and direction were moved by so much. The model is no farther than
-    /// `error` from its box. `None` if the direction may be any.
+    /// `error` from its box. `None` if the direction may be any, or the end is too far away.
     pub fn of_ray(
         [a, way]: [[f32; 3]; 2],
         [off, off_way]: [f64; 2],
@@ -37,16 +37,14 @@ impl Way {
         let radius = 0.5 * norm(minus(high, low)) + f64::from(error);
         let centre = core::array::from_fn(|k| 0.5 * (low[k] + high[k]));
         let pace = norm(way) - off_way;
-        if pace <= 0.0 {
-            return None;
-        }
         // The part of a billion more is for the rounding of these sums.
         let until = (radius + norm(minus(centre, a)) + off) / pace * (1.0 + 1e-9);
         let end = along(a, way, until);
         let rounded = end.map(|x| x as f32);
         let rounding = norm(minus(end, wide(rounded))) + 1e-15 * (norm(a) + norm(end));
         let moved = off + until * off_way + rounding;
-        Some(Self { ends: [a.map(|x| x as f32), rounded], moved, until, is_ray: true })
+        let is_known = pace > 0.0 && rounded.iter().all(|x| x.is_finite());
+        is_known.then_some(Self { ends: [a.map(|x| x as f32), rounded], moved, until, is_ray: true })
     }
 
     /// A clear first hit of the rounded way, if only this part of the way as given is proved to be
