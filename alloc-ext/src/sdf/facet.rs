@@ -9,10 +9,10 @@ const OFF: f64 = 1.0 / (1u64 << 32) as f64;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facet {
     pub at: [DVec3; 3],
-    /// Unit normal; 0 without an area.
+    /// Unit normal; 0 if the area is too small to tell.
     pub normal: DVec3,
-    /// Bound of the distance of the normal from that of the exact triangle. Infinite without an
-    /// area.
+    /// Bound of the distance of the normal from that of the exact triangle. Infinite if
+    /// the area is too small to tell.
     pub doubt: f64,
     /// Whether the winding number is 0 in front of it and 1 behind it.
     pub tells_side: bool,
@@ -27,6 +27,7 @@ impl Facet {
         let longest = ab.length().max(ac.length());
         // An edge is off by less than 3.5 OFF, so the product of two is by 7 OFF · longest. A unit
         // vector is off by twice the part that its length is. Rounding is as much, of ε · longest.
+        // What is above 14 pays for the product of two errors.
         let doubt = 16.0 * longest * (OFF + longest * f64::EPSILON) / area;
         let is_sound = area > 0.0 && doubt < 0.5;
         let normal = if is_sound { cross / area } else { DVec3::ZERO };

@@ -123,6 +123,7 @@ fn of_places(
     steps: usize,
     places: [usize; 3],
 ) -> Vec<Sample> {
+    debug_assert!(steps.is_multiple_of(2), "{steps} steps");
     let none = Sample { distance: 0.0, side: Side::Outside };
     let mut samples = vec![none; places.iter().product()];
     let mut nears: Vec<Near> = Vec::new();

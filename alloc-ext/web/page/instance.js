@@ -1,14 +1,15 @@
 "use strict";
-// An instance of the compiled library, on the page and in its worker: see src/lib.rs.
+// An instance of the compiled library. The page has one, and so has its worker: see src/lib.rs.
 
+// The numbers of `Part` in src/border.rs; of a surface its vertices and its triangles.
 const Part = { text: 0, blob: 1, mesh: [2, 3], hull: [4, 5] };
 
 class Instance {
-  // `told` gets what a long call is doing and the part of the work that is done.
-  static async of(module, told = () => {}) {
+  // `onProgress` gets the stage of a long call and the fraction of the work that is done.
+  static async of(module, onProgress = () => {}) {
     const made = new Instance();
     const page = {
-      told: (at, bytes, part) => told(made.textAt(at, bytes), part),
+      progress: (at, bytes, fraction) => onProgress(made.textAt(at, bytes), fraction),
       panicked: (at, bytes) => (made.panic = made.textAt(at, bytes)),
     };
     made.exports = (await WebAssembly.instantiate(module, { page })).exports;
@@ -16,40 +17,44 @@ class Instance {
     return made;
   }
 
+  // A view of memory. Calls may move the memory, so a view is used before the next call.
   bytesAt(at, bytes) {
-    return new Uint8Array(this.exports.memory.buffer, at, bytes);
+    // Addresses and lengths beyond 2 GiB arrive as negative numbers.
+    return new Uint8Array(this.exports.memory.buffer, at >>> 0, bytes >>> 0);
   }
 
   textAt(at, bytes) {
     return new TextDecoder().decode(this.bytesAt(at, bytes));
   }
 
-  // Writes a request: a value as JSON, and bytes behind it. How long the JSON is.
+  // Runs an export, and throws the message of a panic.
+  run(name, ...numbers) {
+    try {
+      return this.exports[name](...numbers);
+    } catch (error) {
+      // Without memory the library stops without a message. It may have 4 GiB.
+      throw new Error(this.panic ?? `${error.message}: not enough memory?`);
+    }
+  }
+
+  // Runs an export that may refuse, and throws its message if it does.
+  call(name, ...numbers) {
+    if (!this.run(name, ...numbers)) throw new Error(this.json().message);
+  }
+
+  // Writes a request: a value as JSON, then bytes. Returns the number of bytes of the JSON.
   write(json, bytes = new Uint8Array()) {
     const text = json === undefined ? "" : JSON.stringify(json);
     const head = new TextEncoder().encode(text);
-    // By a call: the memory may move as it grows.
-    const at = this.exports.input(head.length + bytes.length);
+    const at = this.run("input", head.length + bytes.length) >>> 0;
     this.bytesAt(at, head.length).set(head);
     this.bytesAt(at + head.length, bytes.length).set(bytes);
     return head.length;
   }
 
-  // Calls an export, and throws its message if it refuses.
-  call(name, ...numbers) {
-    let went;
-    try {
-      went = this.exports[name](...numbers);
-    } catch (error) {
-      // Without a message the memory of 4 GiB is full, or the browser gives no more.
-      throw new Error(this.panic ?? `${error.message}: not enough memory?`);
-    }
-    if (!went) throw new Error(this.json().message);
-  }
-
   // A copy of a part of the answer.
   part(part) {
-    return this.bytesAt(this.exports.output(part), this.exports.output_bytes(part)).slice();
+    return this.bytesAt(this.run("output", part), this.run("output_bytes", part)).slice();
   }
 
   text() {
@@ -60,7 +65,7 @@ class Instance {
     return JSON.parse(this.text());
   }
 
-  // A surface of the answer, if there is one.
+  // A surface of the answer; null if the answer has none.
   surface([vertices, triangles]) {
     const numbers = new Uint32Array(this.part(triangles).buffer);
     if (numbers.length === 0) return null;

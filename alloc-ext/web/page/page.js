@@ -1,115 +1,118 @@
 "use strict";
-// The page: a file goes to the worker, its blob comes back, and an instance here answers at once.
+// The page: the worker builds the blob of a file, and an instance on the page answers about it.
 
 const by = (id) => document.getElementById(id);
-const view = new View(by("scene"), by("marks"));
-
-// The file, what was built of it, the instance that answers, the point that is asked.
-const state = { name: "", file: null, built: null, asks: null, place: null, rows: null };
-
-const module = (async () => {
-  const packed = Uint8Array.from(atob(by("wasm").textContent), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compile(await new Response(stream).arrayBuffer());
-})();
-
-// The worker, and who waits for its answer.
-let worker = null;
-let waiting = null;
-
-function endWorker(reason) {
-  worker?.terminate();
-  worker = null;
-  waiting?.reject(new Error(reason));
-  waiting = null;
-}
-
-// Has the worker do something. What it did before ends.
-async function work(call, options) {
-  if (waiting) endWorker("");
-  if (!worker) {
-    const texts = ["instance", "worker"].map((id) => by(id).textContent);
-    const address = URL.createObjectURL(new Blob(texts, { type: "text/javascript" }));
-    worker = new Worker(address);
-    URL.revokeObjectURL(address);
-    worker.onmessage = ({ data }) => {
-      if (data.doing) return busy(data.doing, data.part);
-      const { resolve, reject } = waiting;
-      waiting = null;
-      busy(null);
-      if (data.failed === undefined) return resolve(data);
-      // A worker that has panicked is of no more use.
-      endWorker("");
-      reject(new Error(data.failed));
-    };
-    worker.onerror = (event) => endWorker(event.message);
-  }
-  busy("starting", 0);
-  const answer = new Promise((resolve, reject) => (waiting = { resolve, reject }));
-  worker.postMessage({ module: await module, call, options, file: state.file });
-  return answer;
-}
-
-function busy(doing, part) {
-  by("busy").hidden = doing === null;
-  if (doing === null) return;
-  by("doing").textContent = doing;
-  by("part").value = part;
-}
 
 // Shows a message, or takes it away.
-function tell(message) {
+function showError(message) {
   by("failed").hidden = !message;
   by("failed").textContent = message ?? "";
-  if (message) busy(null);
 }
 
-// Opens a file: first what is built at once, then the hull.
-async function open(name, bytes) {
+const view = (() => {
   try {
-    tell(null);
-    Object.assign(state, { name, file: bytes, built: null, asks: null, place: null, rows: null });
-    ["ask", "report", "trade"].forEach((id) => (by(id).hidden = true));
+    return new View(by("scene"), by("marks"));
+  } catch (error) {
+    showError(error.message);
+    throw error;
+  }
+})();
+
+const state = {
+  // The name and the bytes of the open file.
+  file: null,
+  // The report and the blob that were built from the file.
+  built: null,
+  // The instance that has opened the blob.
+  instance: null,
+  // The point whose distance is shown.
+  place: null,
+  // The measured trade.
+  trade: null,
+};
+
+const tasks = new Tasks(showProgress);
+
+// Shows the stage of the work and its fraction that is done, or takes both away.
+function showProgress(stage, fraction) {
+  by("busy").hidden = stage === null;
+  // Measuring would cancel the build.
+  by("measure").disabled = stage !== null;
+  if (stage === null) return;
+  by("stage-name").textContent = stage;
+  by("fraction").value = fraction;
+}
+
+// Runs something that may fail, and shows the message if it does.
+async function attempt(action) {
+  try {
+    showError(null);
+    await action();
+  } catch (error) {
+    if (!(error instanceof Cancelled)) showError(error.message);
+  }
+}
+
+// Opens a file. The box tree is built first, because the hull takes longer.
+function open(name, bytes) {
+  return attempt(async () => {
+    const file = { name, bytes };
+    Object.assign(state, { file, built: null, instance: null, place: null, trade: null });
+    ["distance", "report", "trade"].forEach((id) => (by(id).hidden = true));
     ["mesh", "hull"].forEach((id) => view.set(id, null));
     by("title").textContent = name;
     showTrade();
-    draw();
-    await show(await work("build", { name, serve: ["closest", "segment"] }), true);
-    const faces = [Number(by("faces").value)];
-    const serve = ["closest", "segment", "tight"];
-    await show(await work("build", { name, serve, faces }), false);
-  } catch (error) {
-    if (error.message) tell(error.message);
-  }
+    redraw();
+    await build(file, { serve: ["closest", "segment"] }, true);
+    await buildHull(file);
+  });
 }
 
-const blobName = () => state.name.replace(/\.[^.]*$/, "") + ".msw";
+function buildHull(file) {
+  const faces = [Number(by("faces").value)];
+  return build(file, { serve: ["closest", "segment", "tight"], faces }, false);
+}
 
-async function show({ answer, blob, mesh, hull }, isFirst) {
-  const asks = await Instance.of(await module);
-  asks.write(undefined, blob);
-  asks.call("open");
-  Object.assign(state, { built: { answer, blob }, asks });
+// Builds a blob of a file and shows it, unless another file was opened meanwhile.
+async function build(file, options, isFirst) {
+  const made = await tasks.run("build", file, options);
+  const instance = await Instance.of(await tasks.module);
+  if (state.file !== file) throw new Cancelled();
+  instance.write(undefined, made.blob);
+  instance.call("open");
+  Object.assign(state, { built: { answer: made.answer, blob: made.blob }, instance });
+  show(made, isFirst);
+}
+
+// The name of the file without its extension.
+const stem = () => state.file.name.replace(/\.[^.]*$/, "");
+
+function show({ answer, mesh, hull }, isFirst) {
   if (isFirst) {
     view.lookAt(answer.tree.bounds);
     by("depth").value = 0;
   }
   view.set("mesh", mesh);
   view.set("hull", hull);
-  ["ask", "report", "trade"].forEach((id) => (by(id).hidden = false));
+  ["distance", "report", "trade"].forEach((id) => (by(id).hidden = false));
   showReport(answer);
   draw();
   if (isFirst) move(view.toPlane([0.72 * view.scene.width, 0.3 * view.scene.height]));
-  else ask();
+  else showDistance();
 }
 
-// Digits that do not widen a proof: rounded down, or up.
-function rounded(x, isUp) {
-  const text = x.toPrecision(7);
-  const off = isUp ? x - Number(text) : Number(text) - x;
-  if (!(off > 0)) return String(Number(text));
-  const step = 10 ** (Math.floor(Math.log10(Math.abs(x))) - 6);
-  return String(Number((Number(text) + (isUp ? step : -step)).toPrecision(7)));
+// Rounds outward, so that the digits shown still contain the distance.
+function roundedOutward(x, isUp, digits = 7) {
+  const nearest = Number(x.toPrecision(digits));
+  if (isUp ? nearest >= x : nearest <= x) return String(nearest);
+  const exponent = Number(x.toExponential().split("e")[1]);
+  const step = 10 ** (exponent - digits + 1);
+  return String(Number((nearest + (isUp ? step : -step)).toPrecision(digits)));
+}
+
+// A word as a shell reads it.
+function quoted(word) {
+  return /^[\w.\/=:,+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
 
 function row(cells) {
@@ -120,58 +123,72 @@ function row(cells) {
 }
 
 function showReport({ notes, sections, tree, hulls, bytes, unit, options }) {
-  const item = ({ text }) => Object.assign(document.createElement("li"), { textContent: text });
+  const item = (text) => Object.assign(document.createElement("li"), { textContent: text });
   by("notes").replaceChildren(...notes.map(item));
   const count = (n) => n.toLocaleString("en");
   const of = sections.map(({ name, bytes }) => row([name, `${count(bytes)} bytes`]));
   by("sections").replaceChildren(...of, row(["blob", `${count(bytes)} bytes`]));
   by("tree").textContent =
     `${count(tree.triangles)} triangles, ${tree.is_closed ? "closed" : "open"}. ` +
-    `Stored within ${rounded(tree.surface_error, true)} of the file: answers include that. ` +
-    `A query takes ${count(tree.scratch_bytes)} bytes of RAM. ` +
-    (unit ? `Lengths in ${unit}.` : "Lengths in the file's unit.");
+    (tree.has_sides ? "" : "The triangles do not tell inside from outside. ") +
+    `The stored surface is at most ${roundedOutward(tree.surface_error, true)} off the file's, ` +
+    "and every interval includes that. " +
+    `A query of the box tree takes ${count(tree.scratch_bytes)} bytes of scratch memory. ` +
+    `Lengths are in ${unit ?? "the file's unit, which the file does not name"}.`;
   by("hulls").hidden = hulls.length === 0;
   by("hulls").tBodies[0].replaceChildren(
     ...hulls.map((hull) =>
       row([
         hull.faces,
-        hull.void_percent === null ? "-" : rounded(hull.void_percent, true),
-        rounded(hull.hull_to_mesh, true),
-        rounded(hull.mesh_to_hull, true),
+        hull.void_percent === null ? "-" : roundedOutward(hull.void_percent, true),
+        roundedOutward(hull.hull_to_mesh, true),
+        roundedOutward(hull.mesh_to_hull, true),
         count(hull.bytes),
       ]),
     ),
   );
-  by("command").textContent = `meshsweep build ${state.name} -o ${blobName()} ${options}`;
+  const [file, blob] = [state.file.name, `${stem()}.msw`].map(quoted);
+  by("command").textContent = `meshsweep build ${file} -o ${blob} ${options}`;
 }
 
+// Moves the point.
 function move(place) {
   state.place = place;
   [...by("place").querySelectorAll("input")].forEach((field, axis) => (field.value = place[axis]));
-  ask();
+  showDistance();
 }
 
-// Asks both structures about the point.
-function ask() {
-  const { asks, place } = state;
-  if (!asks || !place) return view.drawMarks(null);
+// What the box tree tells beside the distance.
+function sentences({ side, point, triangle }) {
+  const sides = {
+    inside: "The point is inside. ",
+    outside: "The point is outside. ",
+    undecided: "It is undecided whether the point is inside. ",
+  };
+  const at = point.map((x) => Number(x.toPrecision(6))).join(", ");
+  const on = triangle === null ? "" : ` on triangle ${triangle} of the file, counted from 0`;
+  return `${sides[side] ?? ""}The closest point found is ${at}${on}.`;
+}
+
+// Asks the box tree and the hull for the distance of the point, and shows both answers. Returns the
+// answer that is drawn.
+function showDistance() {
+  const { instance, place } = state;
+  if (!instance || !place) return view.drawMarks(null);
   const [relative, steps] = ["relative", "steps"].map((id) => Number(by(id).value));
+  by("found").textContent = "";
   const rows = [];
   let drawn = null;
   const hasHull = state.built.answer.hulls.length > 0;
-  for (const [of, name] of [[0, "box tree"], [1, "hull"]].slice(0, hasHull ? 2 : 1)) {
+  for (const [of, name] of [[0, "box tree"], [1, "tight hull"]].slice(0, hasHull ? 2 : 1)) {
     try {
-      asks.call("closest", of, ...place, relative, steps);
-      const found = asks.json();
+      instance.call("closest", of, ...place, relative, steps);
+      const found = instance.json();
       const { lower, upper, steps: nodes, ended } = found;
-      rows.push(row([name, rounded(lower, false), rounded(upper, true), nodes, ended]));
+      const ends = [roundedOutward(lower, false), roundedOutward(upper, true)];
+      rows.push(row([name, ...ends, nodes, ended]));
       if (of === Number(by("of").value) || !drawn) drawn = found;
-      if (of === 0) {
-        const side = found.side ? `The point is ${found.side}. ` : "";
-        const triangle = found.triangle === null ? "" : `of triangle ${found.triangle} `;
-        const at = found.point.map((x) => Number(x.toPrecision(6))).join(", ");
-        by("found").textContent = `${side}Closest: a point ${triangle}at ${at}.`;
-      }
+      if (of === 0) by("found").textContent = sentences(found);
     } catch (error) {
       rows.push(row([name, error.message, "", "", ""]));
     }
@@ -182,49 +199,50 @@ function ask() {
 }
 
 function showTrade() {
-  const { rows } = state;
-  by("rows").hidden = by("all").parentElement.hidden = !rows;
+  const { trade } = state;
+  by("rows").hidden = by("legend").hidden = by("all").parentElement.hidden = !trade;
   const number = (x) => (x === null ? "-" : x.toLocaleString("en", { maximumFractionDigits: 0 }));
-  const error = (x) => (x === null ? "-" : rounded(Number(x.toPrecision(3)), true));
-  const shown = (rows?.rows ?? []).filter(({ is_best }) => is_best || by("all").checked);
+  const width = (x) => (x === null ? "-" : roundedOutward(x, true, 3));
+  const shown = (trade?.rows ?? []).filter(({ is_best }) => is_best || by("all").checked);
   by("rows").tBodies[0].replaceChildren(
     ...shown.map((one) => {
-      const { structure, dials, build, is_best, median, m4f, m0, flash, scratch } = one;
-      const cells = [error(one.error), error(median), ...[m4f, m0, flash, scratch].map(number)];
+      const { structure, dials, build, is_best, error, median } = one;
+      const costs = [one.m4f, one.m0, one.flash, one.scratch].map(number);
+      const cells = [width(error), width(median), ...costs];
       const line = row([`${structure}: ${dials}`, ...cells]);
       line.className = is_best ? "best" : "";
       line.title = build;
       return line;
     }),
   );
-  const reasons = (rows?.not_built ?? []).map(({ structure, reason }) => `${structure}: ${reason}`);
+  const missing = trade?.not_built ?? [];
+  const reasons = missing.map(({ structure, reason }) => `${structure}: ${reason}`);
   by("missing").textContent = reasons.length ? `Not built: ${reasons.join("; ")}` : "";
 }
 
-async function measure() {
-  try {
-    tell(null);
-    const points = Number(by("points").value);
-    const options = { name: state.name, points, all: by("slow").checked };
-    state.rows = (await work("trade", options)).answer;
+function measure() {
+  return attempt(async () => {
+    const { file } = state;
+    const options = { points: Number(by("points").value), all: by("slow").checked };
+    const { answer } = await tasks.run("trade", file, options);
+    if (state.file !== file) throw new Cancelled();
+    state.trade = answer;
     showTrade();
-  } catch (error) {
-    if (error.message) tell(error.message);
-  }
+  });
 }
 
+// Saves the blob, or its source text: 0 Rust, 1 a C header, 2 C.
 function save(what) {
-  const stem = blobName().slice(0, -4);
-  const { asks, built, name } = state;
+  const { instance, built, file } = state;
   let content = built.blob;
   if (what !== "blob") {
-    asks.call("source", Number(what), asks.write([name, blobName()]));
-    content = asks.part(Part.text);
+    instance.call("source", Number(what), instance.write([file.name, `${stem()}.msw`]));
+    content = instance.part(Part.text);
   }
   const extension = { blob: "msw", 0: "rs", 1: "h", 2: "c" }[what];
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([content]));
-  link.download = `${stem}.${extension}`;
+  link.download = `${stem()}.${extension}`;
   link.click();
   URL.revokeObjectURL(link.href);
 }
@@ -236,13 +254,13 @@ function draw() {
   view.draw();
 }
 
-// Draws anew after the view has changed: the point stays where it is.
+// Draws again after the view has changed. The point keeps its coordinates.
 function redraw() {
   draw();
-  ask();
+  showDistance();
 }
 
-// Keeps the point under the same pixel of the plane.
+// Moves the plane. The point moves with the plane, and keeps its pixel.
 function moveDepth(depth) {
   const pixel = state.place && view.toPixels(state.place);
   by("depth").value = depth;
@@ -262,7 +280,7 @@ function listen() {
   marks.addEventListener("pointercancel", () => (last = null));
   marks.addEventListener("pointermove", (event) => {
     const here = pixel(event);
-    if (!last) return state.asks && move(view.toPlane(here));
+    if (!last) return state.instance && move(view.toPlane(here));
     const [x, y] = here.map((at, axis) => at - last[axis]);
     last = here;
     if (event.shiftKey) view.shift = view.shift.map((at, axis) => at + [x, y][axis]);
@@ -270,7 +288,7 @@ function listen() {
     redraw();
   });
   // A finger that only taps sets the point.
-  marks.addEventListener("click", (event) => state.asks && move(view.toPlane(pixel(event))));
+  marks.addEventListener("click", (event) => state.instance && move(view.toPlane(pixel(event))));
   marks.addEventListener(
     "wheel",
     (event) => {
@@ -296,20 +314,29 @@ function listen() {
   });
   by("depth").addEventListener("input", (event) => moveDepth(event.target.value));
   ["mesh", "hull", "cut"].forEach((id) => by(id).addEventListener("input", draw));
-  ["relative", "steps", "of"].forEach((id) => by(id).addEventListener("input", ask));
+  ["relative", "steps", "of"].forEach((id) => by(id).addEventListener("input", showDistance));
   by("all").addEventListener("input", showTrade);
   by("place").addEventListener("submit", (event) => {
     event.preventDefault();
     move([...event.target.querySelectorAll("input")].map((field) => Math.fround(field.value)));
   });
   by("measure").addEventListener("click", measure);
-  by("cancel").addEventListener("click", () => (endWorker(""), busy(null)));
+  by("cancel").addEventListener("click", () => tasks.cancel());
   for (const button of document.querySelectorAll("[data-save]")) {
-    button.addEventListener("click", () => save(button.dataset.save));
+    button.addEventListener("click", () => attempt(() => save(button.dataset.save)));
   }
-  const take = async (file) => file && open(file.name, new Uint8Array(await file.arrayBuffer()));
-  by("file").addEventListener("change", ({ target }) => take(target.files[0]));
-  by("faces").addEventListener("change", () => state.file && open(state.name, state.file));
+  const take = (file) =>
+    file && attempt(async () => open(file.name, new Uint8Array(await file.arrayBuffer())));
+  by("file").addEventListener("change", ({ target }) => {
+    take(target.files[0]);
+    // The same file can be opened again after it has changed.
+    target.value = "";
+  });
+  by("faces").addEventListener("change", () => {
+    const { file, built } = state;
+    if (built) attempt(() => buildHull(file));
+    else if (file) open(file.name, file.bytes);
+  });
   by("sample").addEventListener("click", () => {
     open("part.obj", new TextEncoder().encode(by("part.obj").textContent));
   });

@@ -1,6 +1,6 @@
 "use strict";
-// The picture: a mesh and its hull by WebGL, and marks on a canvas above. Parallel projection, so
-// that the circles of a distance are circles.
+// The picture: the mesh and its hull by WebGL, and marks on a canvas above. The projection is
+// parallel, so that the outline of a ball is a circle.
 
 const VERTEX = `#version 300 es
 in vec3 place;
@@ -34,11 +34,11 @@ class View {
   constructor(scene, marks) {
     Object.assign(this, { scene, marks, pen: marks.getContext("2d") });
     this.gl = scene.getContext("webgl2", { antialias: true });
-    if (!this.gl) throw new Error("the browser draws no WebGL 2");
+    if (!this.gl) throw new Error("The picture needs WebGL 2, and the browser has none.");
     Object.assign(this, { yaw: -0.9, pitch: 0.5, zoom: 1, shift: [0, 0], centre: [0, 0, 0] });
     Object.assign(this, { radius: 1, cut: false, depth: 0, surfaces: {}, shown: {} });
     this.prepare();
-    // What the graphics card has forgotten is sent again.
+    // A lost context has lost its buffers.
     scene.addEventListener("webglcontextlost", (event) => event.preventDefault());
     scene.addEventListener("webglcontextrestored", () => {
       this.prepare();
@@ -88,7 +88,7 @@ class View {
       gl.bufferData(kind, data, gl.STATIC_DRAW);
       return buffer;
     };
-    // About the centre, where single precision is fine.
+    // Relative to the centre: single precision is finer there.
     const vertices = send(gl.ARRAY_BUFFER, surface.vertices.map((x, i) => x - centre[i % 3]));
     const place = gl.getAttribLocation(this.program, "place");
     gl.enableVertexAttribArray(place);
@@ -99,7 +99,7 @@ class View {
     this.surfaces[name] = { surface, array, vertices, faces, lines, lineEnds: edges.length };
   }
 
-  // Both ends of every edge: of a closed surface each edge is met once in each direction.
+  // The ends of each edge. In a closed surface an edge occurs once in each direction.
   static edges(triangles) {
     const ends = [];
     for (let i = 0; i < triangles.length; i++) {
@@ -116,7 +116,7 @@ class View {
     return [[-sy, cy, 0], [-sp * cy, -sp * sy, cp], [cp * cy, cp * sy, sp]];
   }
 
-  // Pixels of a length.
+  // Pixels of the length 1.
   pixels() {
     const { width, height } = this.scene;
     return (0.42 * Math.min(width, height) * this.zoom) / this.radius;
@@ -150,7 +150,7 @@ class View {
     this.pitch = Math.min(Math.max(this.pitch + y, -Math.PI / 2), Math.PI / 2);
   }
 
-  // Zooms with a pixel in its place.
+  // Zooms about a pixel.
   zoomAt([x, y], factor) {
     const zoom = Math.min(Math.max(this.zoom * factor, 0.1), 10000);
     const real = zoom / this.zoom;
@@ -172,7 +172,7 @@ class View {
     return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
   }
 
-  // The same as numbers from 0 to 1.
+  // A colour of the style sheet as red, green, blue and opacity, from 0 to 1.
   numbers(name, opacity = 1) {
     this.pen.fillStyle = this.colour(name);
     const hex = this.pen.fillStyle;
@@ -197,7 +197,7 @@ class View {
     const { mesh, hull } = this.surfaces;
     if (mesh && this.shown.mesh) {
       gl.depthMask(true);
-      // A little back, so that a hull that touches the mesh is drawn before it.
+      // Pushed back a little, so that a hull that touches the mesh is drawn in front.
       gl.enable(gl.POLYGON_OFFSET_FILL);
       gl.polygonOffset(1, 2);
       this.paint(mesh, this.numbers("mesh"), this.numbers("inner"), this.cut);
@@ -223,7 +223,7 @@ class View {
     gl.drawElements(isLines ? gl.LINES : gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
   }
 
-  // The asked point, the closest one, and both ends of the distance as circles.
+  // The point, the closest point found, and both ends of the distance as circles.
   drawMarks(place, found) {
     const { pen, marks } = this;
     pen.clearRect(0, 0, marks.width, marks.height);

@@ -1,31 +1,31 @@
-//! What the page calls. Numbers cross the border, and bytes in two places: the page writes a
-//! request at [`input`], and fetches what a call has left at [`output`].
+//! The functions that the page calls. Arguments and results are numbers. Bytes cross in two places:
+//! the page writes a request at [`input`], and reads the answer of the last call at [`output`].
 //!
 //! ```text
-//! {"name": …, "serve": […]} + file ─ build ─ report, blob, mesh, tight hull
-//! {"name": …, "points": …}  + file ─ trade ─ rows
-//!                             blob ─ open ─ closest, source
+//! {"name": …, "serve": […], "faces": […]}     + file ─ build ─ report, blob, mesh, tight hull
+//! {"name": …, "points": …, "all": true/false} + file ─ trade ─ rows
+//!                                               blob ─ open ─ closest, source
 //! ```
 //!
-//! A call that is refused returns `false` and leaves `{"message": …}`. An instance that has
-//! panicked is of no more use: the page makes another one.
+//! A call that is refused returns `false`, and its answer is `{"message": …}`. After a panic the
+//! page must make a new instance.
 //!
-//! A C interface, and not wasm-bindgen: eight functions need no generated code, and no program
-//! beside cargo that has to be of the same version.
+//! The interface is C's. wasm-bindgen would generate code, and needs a program of its own version
+//! beside cargo. For so few functions of numbers neither is worth it.
 
-mod ask;
 mod border;
 mod build;
+mod query;
 mod trade;
 
-use border::{Part, answer, answered, request};
+use border::{finish, take_request};
 
-// Functions of the page.
+// Functions of the page. `page/instance.js` has them.
 #[link(wasm_import_module = "page")]
 unsafe extern "C" {
-    /// What is being done, UTF-8, and the part of the work that is done.
-    safe fn told(text: *const u8, bytes: usize, part: f64);
-    /// The message of a panic.
+    /// Takes the stage of a long call, in UTF-8, and the fraction of the work that is done.
+    safe fn progress(stage: *const u8, bytes: usize, fraction: f64);
+    /// Takes the message of a panic, in UTF-8.
     safe fn panicked(text: *const u8, bytes: usize);
 }
 
@@ -38,44 +38,46 @@ pub extern "C" fn start() {
     }));
 }
 
-/// Where to write a request of so many bytes.
+/// Memory in which the page writes a request of this size.
 #[unsafe(no_mangle)]
 pub extern "C" fn input(bytes: usize) -> *mut u8 {
     border::input(bytes)
 }
 
-/// Where a [`Part`] of what the last call has left begins.
+/// The first byte of a [`border::Part`] of the last call's answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn output(part: u32) -> *const u8 {
     border::output(part, |bytes| bytes.as_ptr())
 }
 
-/// How many bytes that part has.
+/// The number of bytes of this part.
 #[unsafe(no_mangle)]
 pub extern "C" fn output_bytes(part: u32) -> usize {
     border::output(part, Vec::len)
 }
 
-/// Builds the blob of a file. The request is [`build::Options`] as JSON, of so many bytes, and the
-/// content of the file.
+/// Builds the blob of a file. The request is JSON of `json_bytes` bytes, then the file: `name` of
+/// the file, `serve` with the words of `meshsweep build --for`, `faces` of each tight hull.
 #[unsafe(no_mangle)]
 pub extern "C" fn build(json_bytes: usize) -> bool {
-    answered(request(json_bytes).and_then(|(options, file)| build::run(&options, file)))
+    finish(take_request(json_bytes).and_then(|(options, file)| build::run(&options, file)))
 }
 
-/// Measures what settings of a mesh promise and cost. The request is like that of [`build`].
+/// Measures the settings of a mesh: the widest interval of each, and its costs. The request is JSON
+/// of `json_bytes` bytes, then the file: `name` of the file, number of `points`, whether `all`
+/// settings are measured, the slow ones too.
 #[unsafe(no_mangle)]
 pub extern "C" fn trade(json_bytes: usize) -> bool {
-    answered(request(json_bytes).and_then(|(options, file)| trade::run(&options, file)))
+    finish(take_request(json_bytes).and_then(|(options, file)| trade::run(&options, file)))
 }
 
-/// Opens a blob, once in an instance. The request is its bytes.
+/// Opens the blob that the request holds. An instance opens one blob only.
 #[unsafe(no_mangle)]
 pub extern "C" fn open() -> bool {
-    answered(request(0).and_then(|(_, blob)| ask::open(blob)))
+    finish(take_request(0).and_then(|(_, blob)| query::open(blob)))
 }
 
-/// The closest point, asked of the box tree or of the finest tight hull. The answer as JSON.
+/// Finds the closest point by the box tree, or by the finest tight hull. The answer is JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn closest(
     of_hull: bool,
@@ -85,22 +87,17 @@ pub extern "C" fn closest(
     relative: f32,
     steps: u32,
 ) -> bool {
-    answered(ask::closest(of_hull, [x, y, z], relative, steps))
+    finish(query::closest(of_hull, [x, y, z], relative, steps))
 }
 
-/// The open blob as source text: 0 a Rust module, 1 a C header, 2 a C file. The request is the
-/// names of the mesh and of the blob, as a JSON array.
+/// Writes the open blob as source text: 0 a Rust module, 1 a C header, 2 a C file. The request is a
+/// JSON array of `json_bytes` bytes: the names of the mesh's file and of the blob's file.
 #[unsafe(no_mangle)]
 pub extern "C" fn source(language: u32, json_bytes: usize) -> bool {
-    answered(request(json_bytes).and_then(|(names, _)| ask::source(language, &names)))
+    finish(take_request(json_bytes).and_then(|(names, _)| query::source(language, &names)))
 }
 
-/// Tells the page how far a long call is.
-fn tell(doing: &str, part: f64) {
-    told(doing.as_ptr(), doing.len(), part);
-}
-
-/// Leaves JSON as the answer.
-fn say(json: &serde_json::Value) {
-    answer(Part::Text, json.to_string().into_bytes());
+/// Shows the page the progress of a long call.
+fn report_progress(stage: &str, fraction: f64) {
+    progress(stage.as_ptr(), stage.len(), fraction);
 }

@@ -1,34 +1,41 @@
-//! What settings of a mesh promise and cost: the rows of `meshsweep trade`.
+//! The rows of `meshsweep trade`: the widest interval measured of each setting, and its costs.
 
+use crate::border::leave_json;
 use crate::build::{name, refusal};
-use crate::{say, tell};
+use crate::report_progress;
 use meshsweep::builder::Recipe;
 use meshsweep::load::Source;
 use meshsweep::trade::{Points, Row, diagonal, measure, pareto, points, standard};
 use serde_json::{Value, json};
+use std::ops::RangeInclusive;
+
+/// Numbers of points that the page takes.
+const POINTS: RangeInclusive<u64> = 1..=100_000;
 
 pub fn run(options: &Value, file: Vec<u8>) -> Result<(), String> {
     let name = name(options);
-    let count = options["points"].as_u64().unwrap_or(0) as usize;
+    let count =
+        options["points"].as_u64().filter(|count| POINTS.contains(count)).ok_or_else(|| {
+            format!("points: a whole number from {} to {} is wanted", POINTS.start(), POINTS.end())
+        })?;
     let refused = |error| refusal(name, &error);
     let source = Source::of_bytes(name.as_ref(), file, None).map_err(refused)?;
     let repaired = source.repaired().map_err(refused)?;
     let mesh = &repaired.mesh;
-    let asked = points(mesh, Points::Near, count);
+    let places = points(mesh, Points::Near, count as usize);
     let mut settings = standard(diagonal(mesh), mesh.triangles.len(), Some(Points::Near));
     if !options["all"].as_bool().unwrap_or(false) {
         settings.retain(|setting| !is_slow(setting.recipe));
     }
-    let progress = |done, of| tell("measuring", f64::from(done as u32) / f64::from(of as u32));
-    let trade = measure(&source, &repaired, &asked, &settings, &progress)
+    let progress = |done, of| report_progress("measuring", done as f64 / of as f64);
+    let trade = measure(&source, &repaired, &places, &settings, &progress)
         .map_err(|error| error.to_string())?;
     let best = pareto(&trade.rows);
     let rows = trade.rows.iter().enumerate().map(|(i, row)| as_json(row, best.contains(&i)));
     let missing = trade.missing.iter().map(|missing| {
         json!({ "structure": missing.recipe.name(), "reason": missing.reason.to_string() })
     });
-    say(&json!({
-        "points": asked.len(),
+    leave_json(&json!({
         "rows": rows.collect::<Vec<_>>(),
         "not_built": missing.collect::<Vec<_>>(),
     }));

@@ -13,21 +13,22 @@
 //! kind surface or signed bounds its distance everywhere. One of kind solid bounds it where the
 //! lower end is above 0, which is outside; inside and next to the surface the tree answers.
 //!
-//! *What it spares.* On `bracket.stl` with a signed field of 16 KiB, a lattice about 0.6 % of the
-//! diagonal wide, at points up to a tenth of the diagonal from the surface, a Cortex-M4F takes in
-//! mean (`cargo xtask count --board "within B 0.02" "within-both B 0.02" "near B 0.01" "near-both B
-//! 0.01" "bounds-both B 0.01"` of that blob B):
+//! *What it spares.* B is a blob of `bracket.stl` with a box tree and a signed field of 16 KiB in the
+//! tree layout: `meshsweep build fixtures/bracket.stl --for closest,sdf -o B`. Mean instructions of
+//! a Cortex-M4F at points up to a tenth of the diagonal from the surface, by
+//! `cargo xtask count --board "within B D" "within-both B D" "near B T" "near-both B T"
+//! "bounds-both B T"`, D a part of the diagonal and T a tolerance:
 //!
-//! | question | tree | field first |
+//! | question | box tree | field first |
 //! | --- | --- | --- |
-//! | within 1 / 2 / 5 % of the diagonal | 1,896 / 2,315 / 3,001 | 1,077 / 738 / 346 |
-//! | closest point to 10 % / 1 % / exact | 7,076 / 8,044 / 9,315 | 5,831 / 6,343 / 7,509 |
-//! | distance without a point to 10 % / 1 % | 7,076 / 8,044 | 4,719 / 6,381 |
+//! | within 1 / 2 / 5 % of the diagonal | 1,895 / 2,315 / 3,001 | 682 / 495 / 351 |
+//! | closest point to 10 % / 1 % / exact | 7,075 / 8,045 / 9,317 | 5,848 / 6,276 / 7,398 |
+//! | distance without a point to 10 % / 1 % | 7,075 / 8,045 | 3,357 / 6,098 |
 //!
-//! *Historical*: since then `within` compares whole units. With a tree of 16 KiB, at 2 % of the
-//! diagonal, it takes 489 in place of 509, and on a Cortex-M0 2,746 in place of 3,450. *Lost*: a
-//! second look-up where the first is open, at a point towards or away from the surface. It decides
-//! one question in ten.
+//! Where the field decides `within`, 240 instructions are the least. Where it does not, the distance
+//! is nearly the one asked about, and the box tree searches as for a closest point. *Lost* (*historical*): a
+//! second look-up at a point towards or away from the surface decides one such question in ten; the
+//! look-up inlined in the question saves 2 % on a Cortex-M4F and takes more stack on a Cortex-M0.
 //!
 //! | file | owns |
 //! | --- | --- |

@@ -9,8 +9,8 @@ use crate::sdf::{FieldDistance, Sdf, SdfKind};
 /// A box tree and the distance field of the same mesh. Questions are those of the tree; the field
 /// answers the ones that it can, and limits the search of the others.
 ///
-/// Every answer holds as surely as the box tree's, and is as narrow: no interval is wider than the
-/// tolerance, up to the surface error and rounding. Verdicts of the field have no witness.
+/// Every answer holds as surely as the box tree's, and meets the same tolerance, up to the surface
+/// error and rounding. Verdicts of the field have no witness.
 /// [`tree`](Self::tree) and [`field`](Self::field) give both views for all other questions.
 ///
 /// ```

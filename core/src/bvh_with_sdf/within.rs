@@ -35,7 +35,8 @@ impl BvhWithSdf<'_> {
         let verdict = match self.field().within_field(point) {
             // Of a field that was not checked nothing is known.
             Some(place) => self.field().told(&place, distance, Near::Surface).unwrap_or(UNDECIDED),
-            // Beyond the field no point is inside: the solid is as far as the surface.
+            // A point inside that is beyond the field is less than a unit below the surface, and
+            // a `Yes` is about more. Elsewhere the solid is as far as the surface.
             None => self.field().within_from_beyond(point, distance).unwrap_or(UNDECIDED),
         };
         if matches!(verdict, Verdict::Undecided(_)) {

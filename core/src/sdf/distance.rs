@@ -22,7 +22,8 @@ pub struct FieldDistance {
 const PLACE: i32 = 1;
 
 /// The same of a point outside: its place may be a unit within the field, and how far beyond the
-/// field it is, is known to 9/16 of a unit. Both along three axes: less than 2.71.
+/// field it is, is known to 9/16 of a unit. Both along three axes: less than 2.71. No upper end is
+/// smaller, so a mesh that stands half a unit above the field is always within it.
 const BEYOND: f32 = 3.0;
 
 /// Part of a length that is lost in f32: the unit and two products.

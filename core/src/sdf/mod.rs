@@ -16,12 +16,12 @@
 //!
 //! *Cost of a tree.* An entry that a look-up reads takes 20 instructions of a Cortex-M4F. Mean and
 //! most at random points of the field, by
-//! `cargo xtask count --board "field field.msw" "units field.msw"` (*historical*: of an older
-//! builder's trees):
+//! `cargo xtask count --board "field field.msw" "units field.msw"` (the first row; the others are
+//! *historical*: of an older builder's fields):
 //!
 //! | field | entries, mean | M4F: f32 | M4F: units | M0: f32 | M0: units |
 //! | --- | --- | --- | --- | --- | --- |
-//! | `bracket.stl`, tree of 16 KiB | 3.5 | 225 / 320 | 198 / 280 | 2,113 / 2,240 | 312 / 440 |
+//! | `bracket.stl`, tree of 16 KiB | 3.5 | 225 / 320 | 199 / 280 | 2,113 / 2,240 | 311 / 440 |
 //! | `bracket.stl`, tree of 4 KiB | 2.7 | 208 / 280 | 182 / 240 | 2,083 / 2,200 | 281 / 360 |
 //! | `torus.ply`, tree of 2 KiB | 2.5 | 205 / 240 | 180 / 200 | 2,086 / 2,200 | 277 / 320 |
 //! | `bracket.stl`, lattice of 16 KiB | – | 180 / 200 | 135 / 160 | 2,040 / 2,120 | 232 / 240 |

@@ -19,8 +19,8 @@ impl Sdf<'_> {
     /// sixteenth for rounding. A difference and a product lose at most two parts in 2^24 of fewer
     /// than 2^19 units.
     ///
-    /// `None` of a point outside. Also of -0 units, which a small negative offset may underflow to:
-    /// the path beyond the field answers it.
+    /// `None` of a point outside. Also of -0 units, of a point -0 at an origin of 0 or of a small
+    /// negative offset that underflows: the path beyond the field answers it.
     #[inline(always)]
     pub(crate) fn within_field(&self, point: [f32; 3]) -> Option<[u32; 3]> {
         let units @ [x, y, z] = self.unrounded(point);

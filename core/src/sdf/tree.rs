@@ -10,10 +10,10 @@
 //! gradient of 1. k bends the function across the gradient, as the distance from a point or an edge
 //! does. 32 in place of 31 makes a division a shift, and leaves 6 % of the bend along the gradient.
 //!
-//! *Rounding.* All but the squares is exact up to the last shifts. For the squares, ways are cut to
-//! 11 bits in a root cell, and to a bit less for every second halving. So the shifts of the bend
-//! are 8 or 7. [`loss`](super::format::layout::tree::loss) bounds what both change, and the builder
-//! adds it to the width.
+//! *Rounding.* All but the bend is exact up to the last shifts. For its squares, ways are cut to
+//! 11 bits in a root cell, and to a bit less for every second halving. So the bend is shifted by 8
+//! or 7. [`loss`](super::format::layout::tree::loss) bounds what all of them change, and the
+//! builder adds it to the width.
 
 use super::format::Sdf;
 use super::format::layout::tree::{

@@ -81,6 +81,8 @@ impl Sdf<'_> {
         }
     }
 
+    /// Whether the surface, or the solid, is within a distance of a point beyond the field. The
+    /// distance is finite and not negative.
     #[cold]
     #[inline(never)]
     pub(crate) fn within_from_beyond(

@@ -71,14 +71,18 @@ fn main() -> ExitCode {
             Some(options) => measuring::run(&mut steps, options),
             None => return usage(),
         },
+        // The number alone, for the script that reads it.
         ["race", "--batch", blob, points] => {
-            match batch::seconds(Path::new(blob), Path::new(points)) {
-                Ok(seconds) => say::text(format!("{seconds}\n")),
+            return match batch::seconds(Path::new(blob), Path::new(points)) {
+                Ok(seconds) => {
+                    say::text(format_args!("{seconds}\n"));
+                    ExitCode::SUCCESS
+                }
                 Err(error) => {
                     eprintln!("{error}");
-                    return ExitCode::FAILURE;
+                    ExitCode::FAILURE
                 }
-            }
+            };
         }
         ["race", rest @ ..] => {
             if racing::run(&mut steps, rest).is_none() {

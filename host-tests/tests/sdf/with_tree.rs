@@ -1,7 +1,7 @@
 //! A field and a box tree of one blob: no answer is wrong, and none is worse than the tree's.
 
 use meshsweep::Builder;
-use meshsweep::builder::{For, SdfKind};
+use meshsweep::builder::{For, SdfKind, SdfLayout};
 use meshsweep::mesh::RawMesh;
 use meshsweep_core::{
     Budget, BvhWithSdf, Ended, Interval, QueryError, ScratchEntry, Side, Undecided, Verdict,
@@ -181,6 +181,36 @@ fn no_verdict_is_wrong_and_what_the_tree_decides_is_decided() {
 }
 
 /// Tolerances, each with how wide an interval at a lower end may be.
+/// Without a margin the mesh may stand a part of a unit above the field.
+#[test]
+fn no_verdict_is_wrong_at_the_border_of_a_solid_field_without_a_margin() {
+    let mesh = block([0.0; 3], [3.0, 2.0, 1.0]);
+    let mut alone = 0;
+    for layout in SdfLayout::ALL {
+        let builder = Builder::new().serve_all([For::Closest, For::Sdf]).sdf_kind(SdfKind::Solid);
+        let builder = builder.sdf_layout(layout).sdf_margin(0.0).sdf_bytes(400);
+        let built = builder.build(RawMesh::from_f32(&mesh.0, &mesh.1)).expect("builds");
+        let both = BvhWithSdf::open(built.bytes()).expect("opens");
+        let [low, high] = both.field().bounds().map(|corner| corner.map(f64::from));
+        let (mut rng, unit) = (Rng::new(12), f64::from(both.field().unit()));
+        for number in 0..6000 {
+            let mut p = [0, 1, 2].map(|k| low[k] + (high[k] - low[k]) * rng.unit_f64());
+            p[number % 3] = high[number % 3] + 3.0 * unit * (2.0 * rng.unit_f64() - 1.0);
+            let (p, d) = (p.map(|x| x as f32), (unit * 1e4f64.powf(rng.unit_f64())) as f32);
+            let mut stack = stack(&both);
+            let found = both.within(p, d, Budget::EXACT, &mut stack).expect("answers");
+            let truth = distance_to_mesh(p, &mesh.0, &mesh.1);
+            match found.verdict {
+                Verdict::Yes => assert!(truth.lower <= f64::from(d), "{layout:?} {p:?} {d}"),
+                Verdict::No => assert!(truth.upper > f64::from(d), "{layout:?} {p:?} {d}"),
+                _ => {}
+            }
+            alone += u32::from(found.work.opened == 0);
+        }
+    }
+    assert!(alone > 2000, "only {alone} verdicts were the field's");
+}
+
 fn tolerances(diagonal: f64) -> [(Budget, f32, f32); 5] {
     let near = (0.01 * diagonal) as f32;
     let exact = Budget::EXACT;

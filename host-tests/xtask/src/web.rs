@@ -103,6 +103,7 @@ fn page() -> Result<PathBuf, String> {
         ("@SAMPLE@", read(&workspace::root().join("fixtures/groove.obj"))?),
         ("@INSTANCE@", source("instance.js")?),
         ("@WORKER@", source("worker.js")?),
+        ("@TASKS@", source("tasks.js")?),
         ("@VIEW@", source("view.js")?),
         ("@PAGE@", source("page.js")?),
         // The last, because it is long.

@@ -36,8 +36,11 @@ const hover = (x, y) => {
   by("marks").dispatchEvent(new PointerEvent("pointermove", at));
 };
 
-await open("part.stl", bytesOf(given.mesh));
+// Of two files the later one is shown.
+const earlier = open("part.obj", new TextEncoder().encode(by("part.obj").textContent));
+await Promise.all([earlier, open("part.stl", bytesOf(given.mesh))]);
 await until(() => state.built?.answer.hulls.length === 1, "built");
+require(state.file.name === "part.stl" && by("failed").hidden, "the later file is shown");
 const colours = new Set(pixels()[0]).size;
 require(colours > 50, `${colours} colours of the mesh and its hull`);
 
@@ -68,17 +71,33 @@ for (const [key, shiftKey] of keys) {
 }
 // Fewer nodes, a wider interval.
 by("steps").value = "1";
-const wide = ask();
+const wide = showDistance();
 by("steps").selectedIndex = 0;
-const narrow = ask();
+const narrow = showDistance();
 require(wide.lower <= narrow.lower && wide.upper - wide.lower > 2 * (narrow.upper - narrow.lower),
   "one node gives a wider interval");
+
+// Another number of faces makes another hull. The point stays.
+const stays = state.place;
+for (const faces of [100, 200]) {
+  by("faces").value = faces;
+  by("faces").dispatchEvent(new Event("change"));
+  await until(() => state.built.answer.hulls[0]?.faces === faces, "built anew");
+}
+require(state.place === stays, "other faces of the hull");
+
+const roundings = [[0.12341, true, 3, "0.124"], [0.12349, false, 3, "0.123"], [1000.0001, true, 7,
+  "1000.001"], [9.9996, false, 4, "9.999"], [-0.12341, true, 3, "-0.123"], [0, true, 3, "0"]];
+for (const [x, isUp, digits, text] of roundings) {
+  const found = roundedOutward(x, isUp, digits);
+  if (found !== text) throw new Error(`${x} is rounded to ${found}`);
+}
 
 const answers = given.points.map((point) => {
   const fields = by("place").querySelectorAll("input");
   point.forEach((x, axis) => (fields[axis].value = x));
   by("place").requestSubmit();
-  return ask().bits;
+  return showDistance().bits;
 });
 const blob = packed(state.built.blob);
 
@@ -110,8 +129,8 @@ if (given.isWhole) {
   require(by("failed").hidden, "the refusal is gone");
   by("points").value = 20;
   by("measure").click();
-  await until(() => state.rows, "measured");
-  rows = state.rows.rows.map(({ structure, dials, flash }) => [structure, dials, flash].join("/"));
+  await until(() => state.trade, "measured");
+  rows = state.trade.rows.map(({ structure, dials, flash }) => [structure, dials, flash].join("/"));
   require(by("rows").tBodies[0].rows.length > 3, `${rows.length} rows of a trade`);
   // What is in the pictures.
   await open("part.stl", bytesOf(given.mesh));

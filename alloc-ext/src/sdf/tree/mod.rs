@@ -12,11 +12,10 @@
 //! ```
 //!
 //! *Partition.* Dyadic boxes of a root cell are fitted from large to small, by few samples. Halves
-//! of a box that is good enough are not fitted. A box costs the
-//! width of its intervals, weighted by where questions are, and the price of five bytes. Or it is
-//! halved along any of the axes, and costs that price and what its parts cost. So the best
-//! partition at a price follows from the smallest boxes upwards, and the price is found that fills
-//! the bytes.
+//! of a box that is good enough are not fitted. A box costs the width of its intervals, weighted by
+//! where questions are, and the price of five bytes. Or it is halved along any of the axes, and
+//! costs that price and what its parts cost. So the best partition at a price follows from the
+//! smallest boxes upwards, and the price is found that fills the bytes.
 
 mod build;
 mod codes;

@@ -98,7 +98,9 @@ pub(in crate::sdf) fn build(
     let step = Scale::of(grid.values()).map_or(0.0, Scale::step);
     let all = Boxes { maker, grid, step };
     let mut widest = all.smallest(watch.part(0.2, 0.25))?;
-    // A box is taken to be no narrower than the boxes in it. This decides a refusal alone.
+    // A box is taken to be no narrower than the boxes in it: here, and where halves of a narrow box
+    // are not fitted. Where that is wrong, the proof refuses a leaf and the next round halves it,
+    // or a field that could be built is refused.
     if widest > 1.0 {
         return Ok(Some(Narrow::Taken(widest)));
     }

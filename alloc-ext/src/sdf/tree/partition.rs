@@ -171,9 +171,10 @@ fn choose(costs: &[f32], order: &[u32], most: usize, price: f32) -> Choice {
     choice
 }
 
-/// The partition of least cost of all root cells into at most so many entries, from the costs of
-/// all boxes of each, and the price of an entry that gave it. The price is a Lagrange multiplier,
-/// found by halving its range. No axis is halved more often than `most` times.
+/// A partition of all root cells into at most so many entries, from the costs of all boxes of each,
+/// and the price of an entry that gave it. No partition of as many entries costs less. The price is
+/// a Lagrange multiplier, found by halving its range: some numbers of entries have none, and then
+/// fewer are taken. No axis is halved more often than `most` times.
 pub(super) fn partition(
     costs: &[Vec<f32>],
     most: usize,

@@ -7,8 +7,9 @@ rows: a distance that is off by more than 1e-6 of the mesh's diagonal, a sign th
 where the surface is farther than that. Of pairs there is no brute force: those are counted whose
 distance is outside of meshsweep's interval by more than that.
 
-Each time is the best of three. trimesh is timed on few rows. The Rust batch is what meshsweep's
-closest points call, in a process of its own: `cargo xtask race --batch`.
+Each time is the best of three. trimesh is timed on few rows. The Rust batch is the one that answers
+meshsweep's closest points, called once for all points, in a process of its own and by a program
+that is built as published ones are: `cargo xtask race --batch`.
 """
 
 import importlib.metadata
@@ -29,7 +30,7 @@ import trimesh
 ROWS, CHECKED, SLOW, PAIRS, BATCH = 200_000, 400, 2_000, 300, 1_000_000
 
 
-PACKAGES = ("libigl", "trimesh", "rtree", "python-fcl", "coal")
+PACKAGES = ("meshsweep", "libigl", "trimesh", "rtree", "python-fcl", "coal", "numpy", "scipy")
 
 
 def timed(ask):
@@ -108,8 +109,8 @@ def race(file):
     took, found = timed(lambda: trimesh.proximity.closest_point(mesh, wide[:SLOW]))
     row("closest point", "trimesh", took * ROWS / SLOW / ours, wrong(found[1]), CHECKED)
 
-    many = rng.uniform(low - 0.25 * (high - low), high + 0.25 * (high - low), (BATCH, 3))
-    many = many.astype(np.float32)
+    sides = low - 0.25 * (high - low), high + 0.25 * (high - low)
+    many = np.random.default_rng(2).uniform(*sides, (BATCH, 3)).astype(np.float32)
     ours, _ = timed(lambda: part.closest_point(many))
     row(f"closest point, {BATCH:,}", "the Rust batch", by_rust(part, many) / ours, "–")
 
@@ -151,7 +152,7 @@ def by_rust(part, points):
         part.save(blob)
         points.tofile(raw)
         words = [os.environ["MESHSWEEP_LAB"], "race", "--batch", blob, raw]
-        return float(subprocess.run(words, check=True, capture_output=True, text=True).stdout)
+        return float(subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True).stdout)
 
 
 def by_fcl(vertices, faces, poses):

@@ -1,7 +1,6 @@
-//! The blob that the page asks.
+//! The open blob: closest points, and its source text.
 
-use crate::border::{Part, answer};
-use crate::say;
+use crate::border::{Part, leave, leave_json};
 use meshsweep::distances::{Distances, has_sides, signed_distance};
 use meshsweep::emit::source::{SourceNames, c_header, c_source, rust_module};
 use meshsweep_core::{Blob, Budget, Ended, ScratchEntry, Side};
@@ -9,7 +8,7 @@ use serde_json::{Value, json};
 use std::cell::OnceCell;
 
 thread_local! {
-    /// It lives as long as the instance, so its bytes may be leaked.
+    /// Its bytes are leaked: the blob lives as long as the instance.
     static BLOB: OnceCell<Blob<'static>> = const { OnceCell::new() };
 }
 
@@ -35,6 +34,7 @@ pub fn closest(of_hull: bool, point: [f32; 3], relative: f32, steps: u32) -> Res
     let mut scratch = vec![ScratchEntry::EMPTY; structure.scratch_entries()];
     let found =
         structure.closest_point(point, budget, &mut scratch).map_err(|error| error.to_string())?;
+    // A tight hull does not tell the side of the mesh.
     let side = match structure {
         Distances::Tree(tree) if has_sides(&tree) => {
             let found = signed_distance(&tree, point, Budget::EXACT, &mut scratch);
@@ -52,7 +52,7 @@ pub fn closest(of_hull: bool, point: [f32; 3], relative: f32, steps: u32) -> Res
     };
     let [x, y, z] = found.point;
     let ends = [found.distance.lower, found.distance.upper, x, y, z];
-    say(&json!({
+    leave_json(&json!({
         "lower": found.distance.lower,
         "upper": found.distance.upper,
         "point": found.point,
@@ -66,7 +66,7 @@ pub fn closest(of_hull: bool, point: [f32; 3], relative: f32, steps: u32) -> Res
             _ => "stored precision",
         },
         "steps": found.work.opened,
-        // As the host's are compared: hexadecimal, lower, upper, x, y, z.
+        // `cargo xtask web` compares these bits with those of the program.
         "bits": ends.map(|x| format!("{:08x}", x.to_bits())).join(" "),
     }));
     Ok(())
@@ -81,6 +81,6 @@ pub fn source(language: u32, names: &Value) -> Result<(), String> {
         1 => c_header(&blob, names),
         _ => c_source(&blob, names),
     };
-    answer(Part::Text, text.into_bytes());
+    leave(Part::Text, text.into_bytes());
     Ok(())
 }
