@@ -87,10 +87,7 @@ impl Engine<'_> {
         };
         let way = match is_ray {
             true => Way::of_ray(points, off, bounds),
-            false => Some(Way::of_segment(points, moved(row))),
-        };
-        let Some(way) = way else {
-            return Ok(Way::of_segment(points, 0.0).undecided(clear, 0.0));
+            false => Way::of_segment(points, moved(row)),
         };
         let tree = match self {
             Self::Tree(tree) => Asks::Tree(**tree),

@@ -27,12 +27,14 @@ impl Way {
     }
 
     /// Of a ray whose origin and direction were moved by so much. The model is no farther than
-    /// `error` from its box. `None` if the direction may be any, or the end is too far away.
+    /// `error` from its box. If the direction may be any, or the end is too far away, points may be
+    /// anywhere.
     pub fn of_ray(
         [a, way]: [[f32; 3]; 2],
         [off, off_way]: [f64; 2],
         (bounds, error): ([[f32; 3]; 2], f32),
-    ) -> Option<Self> {
+    ) -> Self {
+        let origin = a;
         let ([a, way], [low, high]) = ([a, way].map(wide), bounds.map(wide));
         let radius = 0.5 * norm(minus(high, low)) + f64::from(error);
         let centre = core::array::from_fn(|k| 0.5 * (low[k] + high[k]));
@@ -44,7 +46,10 @@ impl Way {
         let rounding = norm(minus(end, wide(rounded))) + 1e-15 * (norm(a) + norm(end));
         let moved = off + until * off_way + rounding;
         let is_known = pace > 0.0 && rounded.iter().all(|x| x.is_finite());
-        is_known.then_some(Self { ends: [a.map(|x| x as f32), rounded], moved, until, is_ray: true })
+        match is_known {
+            true => Self { ends: [origin, rounded], moved, until, is_ray: true },
+            false => Self { ends: [origin; 2], moved: f64::INFINITY, until: 0.0, is_ray: true },
+        }
     }
 
     /// A clear first hit of the rounded way, if only this part of the way as given is proved to be

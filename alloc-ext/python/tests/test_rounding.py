@@ -105,6 +105,9 @@ def test_a_ray_that_hits_is_not_called_clear_because_it_was_rounded(kind, reques
     aside = part.first_hit_of_ray(starts + ASIDE, ways)
     assert (aside.verdict == Verdict.NO).mean() > 0.95
     assert (part.first_hit_of_ray(starts, -ways).verdict == Verdict.NO).all()
+    # Rounding leaves little of such directions.
+    tiny = part.first_hit_of_ray(starts, [[1.1e-45, 0, -1.1e-45]])
+    assert (tiny.verdict == Verdict.UNDECIDED).all() and np.isinf(tiny.t_upper).all()
 
 
 def test_the_rounding_of_a_carried_tool_is_in_the_answer(part):
