@@ -16,7 +16,8 @@ import meshsweep
 import numpy as np
 from dask.distributed import Client, LocalCluster, as_completed
 
-CHUNK = 250_000
+# Whole batches of questions: then each record is that of one process, its work too.
+CHUNK = 15 * 2**14
 
 
 def ask_chunk(model, points, answers, begin, end):
@@ -32,8 +33,8 @@ def ask_chunk(model, points, answers, begin, end):
 def ask(client, blob, points, answers, chunk=CHUNK, tell=None):
     """Closest points of all rows of `points`, an .npy file, into `answers`, another."""
     rows = np.load(points, mmap_mode="r")
-    dtype = meshsweep.load(blob).closest_point(rows[:1]).dtype
-    np.lib.format.open_memmap(answers, "w+", np.dtype(dtype.descr), (len(rows),)).flush()
+    dtype = np.dtype((np.void, meshsweep.load(blob).closest_point(rows[:1]).dtype))
+    np.lib.format.open_memmap(answers, "w+", dtype, (len(rows),)).flush()
     begins = range(0, len(rows), chunk)
     blob, *names = [str(Path(file).resolve()) for file in (blob, points, answers)]
     # A task: each worker gets the model once, and a lost one is loaded again.

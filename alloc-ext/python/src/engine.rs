@@ -2,6 +2,9 @@
 
 use crate::error::NotServedError;
 use crate::model::{BESIDE_HULL, Model};
+use crate::rounding::{Way, moved};
+use crate::segments::ends;
+use crate::solids::Asks;
 use meshsweep::bvh::FastBvh;
 use meshsweep_core::{
     AllHits, AllOverlaps, Budget, Bvh, Decided, Facing, FirstHit, Hull, Pose, QueryError,
@@ -63,6 +66,50 @@ impl Engine<'_> {
             (Self::Hull(hull), true) => hull.first_hit_of_ray(a, b, budget, scratch),
             (Self::Hull(hull), false) => hull.first_hit(a, b, budget, scratch),
         }
+    }
+
+    /// A first hit that is clear, as it is of the segment or ray before it was rounded. Rows have
+    /// both points, and how far rounding moved each. Clear is what a ball of the rounding's radius
+    /// passes: that looks at no facing.
+    pub fn as_given(
+        &self,
+        row: &[f32; 8],
+        is_ray: bool,
+        mut clear: FirstHit,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<FirstHit, QueryError> {
+        let points = ends(row);
+        let off = [row[6].into(), row[7].into()];
+        let bounds = match self {
+            Self::Tree(tree) => (tree.bounds(), tree.surface_error()),
+            Self::Hull(hull) => (hull.bounds(), hull.surface_error()),
+        };
+        let way = match is_ray {
+            true => Way::of_ray(points, off, bounds),
+            false => Way::of_segment(points, moved(row)),
+        };
+        let tree = match self {
+            Self::Tree(tree) => Asks::Tree(**tree),
+            Self::Hull(hull) => {
+                return way.by_balls(clear, |centre| {
+                    let near = hull.closest_point(centre, budget, scratch)?;
+                    Ok((near.distance.lower, near.work))
+                });
+            }
+        };
+        let [a, b] = way.ends;
+        let passed = tree.first_contact([&[a], &[b]], 0.0, way.moved, budget, scratch);
+        // Solids have a smaller domain. Beyond it nothing is known.
+        let Ok(passed) = passed else { return Ok(way.undecided(clear, 0.0)) };
+        clear.work = clear.work.and(passed.work);
+        if passed.is_clear() {
+            return Ok(clear);
+        }
+        clear.hit = passed.hit;
+        let mut found = way.undecided(clear, passed.t.lower.into());
+        found.ended = passed.ended;
+        Ok(found)
     }
 
     pub fn all_hits(

@@ -1,5 +1,7 @@
-//! Exceptions, with the words of the Rust library.
+//! Exceptions, with the words of the Rust library where they are those of Python.
 
+use meshsweep::builder::{For, SdfKind};
+use meshsweep_core::QueryError as Refused;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
@@ -25,12 +27,64 @@ create_exception!(
     "The blob was not built for the question. The message names the word of `for_` to add."
 );
 
+/// Options of the program that have another name here; `-` is `_` in all.
+const OPTIONS: [(&str, &str); 7] = [
+    ("for", "for_"),
+    ("base", "base_faces"),
+    ("tight", "tight_faces"),
+    ("void", "void_percent"),
+    ("sdf", "sdf_bytes"),
+    ("extrema", "extrema=True"),
+    ("closed", "closed=True"),
+];
+
+/// A message with the names of this package in place of those of the program.
+pub fn in_python(message: &impl ToString) -> String {
+    let message =
+        message.to_string().replace("(memory)", "the mesh").replace("--sdf bytes", "--sdf");
+    let mut parts = message.split("--");
+    let mut said = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        if !said.is_empty() && !said.ends_with([' ', '\n', '(', '"']) {
+            // Of the name of a file.
+            said.push_str("--");
+            said.push_str(part);
+            continue;
+        }
+        let end = part.find(|c: char| !c.is_ascii_lowercase() && c != '-').unwrap_or(part.len());
+        let (option, rest) = part.split_at(end);
+        let name = OPTIONS.iter().find(|(of_program, _)| *of_program == option);
+        said.push_str(
+            &name.map_or_else(|| option.replace('-', "_"), |(_, name)| (*name).to_owned()),
+        );
+        let value = rest.strip_prefix(' ').unwrap_or_default();
+        let end = value.find(|c: char| !c.is_ascii_lowercase() && c != ',').unwrap_or(value.len());
+        let value = value[..end].trim_end_matches(',');
+        let is_value = match option {
+            "for" => value.split(',').all(|word| For::ALL.iter().any(|one| one.name() == word)),
+            "sdf-kind" => SdfKind::ALL.iter().any(|kind| kind.name() == value),
+            _ => false,
+        };
+        if is_value {
+            said.push_str(&format!("=\"{value}\"{}", &rest[1 + value.len()..]));
+        } else {
+            said.push_str(rest);
+        }
+    }
+    said
+}
+
 /// A build that was refused, or that Ctrl-C ended.
 pub fn of_build(error: &meshsweep::BuildError) -> PyErr {
     match error {
         meshsweep::BuildError::Cancelled => PyKeyboardInterrupt::new_err(error.to_string()),
-        _ => BuildError::new_err(error.to_string()),
+        _ => refused(error),
     }
+}
+
+/// A mesh, an option or a blob to cut that is refused.
+pub fn refused(error: &impl ToString) -> PyErr {
+    BuildError::new_err(in_python(error))
 }
 
 /// Bytes that do not open.
@@ -39,10 +93,17 @@ pub fn of_open(error: meshsweep_core::OpenError) -> PyErr {
 }
 
 /// A question that is refused, of a row if one is to blame.
-pub fn of_query(row: Option<usize>, error: meshsweep_core::QueryError) -> PyErr {
-    let text = row.map_or_else(|| error.to_string(), |row| format!("row {row}: {error}"));
+pub fn of_query(row: Option<usize>, error: Refused) -> PyErr {
+    let text = match error {
+        Refused::NotRigid => "the pose's matrix is no rotation, or it is a mirror".to_owned(),
+        Refused::OutOfDomain => {
+            "a point, a segment's end or a model is too far away: clip segments first".to_owned()
+        }
+        _ => in_python(&error),
+    };
+    let text = row.map_or_else(|| text.clone(), |row| format!("row {row}: {text}"));
     match error {
-        meshsweep_core::QueryError::NotServed { .. } => NotServedError::new_err(text),
+        Refused::NotServed { .. } => NotServedError::new_err(text),
         _ => QueryError::new_err(text),
     }
 }

@@ -4,6 +4,7 @@
 use crate::error::missing;
 use crate::model::{BESIDE_HULL, Model, budget};
 use crate::pairs::pose;
+use crate::rounding::{Way, moved};
 use crate::rows::{Asked, Found, Lists, Records};
 use crate::segments::ends;
 use meshsweep::distances::Closest;
@@ -43,20 +44,27 @@ impl Model {
         })
     }
 
-    /// Rows have both ends of a segment.
+    /// Rows have both ends of a segment, and how far rounding moved each.
     fn first_hit_at<'py>(&self, asked: Asked<'py>, steps: Option<u32>) -> PyResult<Records<'py>> {
         let (hull, budget) = (self.deformable()?, budget((0.0, 0.0, steps)));
-        asked.each(hull.scratch_entries() + BESIDE_HULL, |row: [f32; 7], scratch| {
-            let [a, b] = ends(&row);
-            hull.at_frame(row[6])?.first_hit(a, b, budget, scratch)
+        asked.each(hull.scratch_entries() + BESIDE_HULL, |row: [f32; 9], scratch| {
+            let ([a, b], hull) = (ends(&row), hull.at_frame(row[8])?);
+            let found = hull.first_hit(a, b, budget, scratch)?;
+            if !found.is_clear() || moved(&row) <= 0.0 {
+                return Ok(found);
+            }
+            Way::of_segment([a, b], moved(&row)).by_balls(found, |centre| {
+                let near = hull.closest_point(centre, budget, scratch)?;
+                Ok((near.distance.lower, near.work))
+            })
         })
     }
 
     fn all_hits_at<'py>(&self, asked: Asked<'py>) -> PyResult<Lists<'py>> {
         let hull = self.deformable()?;
         let entries = hull.scratch_entries() + BESIDE_HULL;
-        asked.lists(entries, TriangleHit::EMPTY, |row: [f32; 7], room, scratch| {
-            let ([a, b], hull) = (ends(&row), hull.at_frame(row[6])?);
+        asked.lists(entries, TriangleHit::EMPTY, |row: [f32; 9], room, scratch| {
+            let ([a, b], hull) = (ends(&row), hull.at_frame(row[8])?);
             let AllHits { stored, dropped, is_complete, .. } =
                 hull.all_hits(a, b, room, Budget::EXACT, scratch)?;
             Ok(Found { stored, dropped, is_complete })

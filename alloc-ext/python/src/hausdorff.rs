@@ -1,7 +1,7 @@
 //! How far two meshes are from each other, as `meshsweep hausdorff` says.
 
 use crate::build::unit_named;
-use crate::error::BuildError;
+use crate::error::{in_python, refused};
 use crate::mesh::{Given, Taken};
 use crate::pool::aside;
 use meshsweep::hausdorff::{Attained, Direction, Ended, Precision, Refused, hausdorff as measure};
@@ -33,7 +33,7 @@ const NAMES: [&str; 2] = ["a", "b"];
 
 /// A refusal that names the mesh.
 fn of_mesh(name: &str, error: &impl std::fmt::Display) -> PyErr {
-    BuildError::new_err(format!("{name}: {error}"))
+    refused(&format!("{name}: {error}"))
 }
 
 /// Bounds the distance of two meshes. Of one direction with `is_one_sided`. The precision is
@@ -74,7 +74,7 @@ fn of_two(
     let loaded = [load((a, NAMES[0]))?, load((b, NAMES[1]))?];
     let [first, second] = &loaded;
     require_same_unit([(Path::new("a"), first.unit), (Path::new("b"), second.unit)])
-        .map_err(|error| BuildError::new_err(error.to_string()))?;
+        .map_err(|error| refused(&error))?;
     let mut progress = |_: f64, _: f64| {
         if stop.load(Ordering::Relaxed) {
             // The search has no other way out, and nobody waits. No panic is reported.
@@ -85,7 +85,7 @@ fn of_two(
         .map_err(|Refused { is_second, error }| of_mesh(NAMES[usize::from(is_second)], &error))?;
     let doubts = |(loaded, name): (&Loaded, &str)| {
         let doubts = loaded.report.doubts();
-        doubts.map(|said| format!("{name}: {said}")).collect::<Vec<_>>()
+        doubts.map(|said| format!("{name}: {}", in_python(&said))).collect::<Vec<_>>()
     };
     Ok(Bounds {
         lower: found.lower,

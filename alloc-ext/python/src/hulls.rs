@@ -1,6 +1,6 @@
 //! The geometry of hulls.
 
-use crate::error::{BuildError, MeshsweepError, missing, of_query};
+use crate::error::{MeshsweepError, missing, of_query, refused};
 use crate::model::Model;
 use meshsweep::cut::{Keep, cut_blob};
 use meshsweep::hull::{enclosing_input, mesh_of, sticks_out_note};
@@ -69,9 +69,9 @@ impl Model {
         arrays(py, &enclosing(&hull, &mesh_of(&hull, hull.faces(&level)))?)
     }
 
-    /// Number of levels of the hull hierarchy; 0 without one.
-    fn hull_levels(&self) -> u32 {
-        self.blob().hull().map_or(0, |hull| hull.header().levels)
+    /// Number of levels of the hull hierarchy.
+    fn hull_levels(&self) -> PyResult<u32> {
+        self.enclosing_hull().map(|hull| hull.header().levels)
     }
 
     /// The hull that is fine around a ball, in a box, around a segment, or everywhere; and the
@@ -123,6 +123,6 @@ impl Model {
         let mut keep = Keep::default();
         (keep.level, keep.triboxes, keep.tight) = (level, triboxes, tight);
         let cut = py.detach(|| cut_blob(self.blob(), &keep));
-        Self::of(cut.map_err(|error| BuildError::new_err(error.to_string()))?, Vec::new())
+        Self::of(cut.map_err(|error| refused(&error))?, Vec::new())
     }
 }

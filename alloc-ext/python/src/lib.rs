@@ -1,4 +1,4 @@
-//! The Rust half of the Python package `meshsweep`. Rows of NumPy arrays come in, packed records go
+//! The Rust half of the Python package `meshsweep`. Rows of NumPy arrays come in, records go
 //! out; `python/meshsweep` gives them names.
 
 mod build;
@@ -13,6 +13,7 @@ mod pairs;
 mod points;
 mod pool;
 mod record;
+mod rounding;
 mod rows;
 mod segments;
 mod solids;

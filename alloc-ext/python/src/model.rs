@@ -1,6 +1,6 @@
 //! An opened blob: what it holds, and which structure answers.
 
-use crate::error::{missing, of_open};
+use crate::error::{in_python, missing, of_open};
 use meshsweep::builder::Built;
 use meshsweep::bvh::FastBvh;
 use meshsweep::distances::{Distances, has_sides};
@@ -41,7 +41,8 @@ pub fn budget((rel, abs, steps): (f32, f32, Option<u32>)) -> Budget {
 impl Model {
     /// The model of a build, with its report.
     pub fn built(built: Built) -> PyResult<Self> {
-        let report = built.report().map(|note| (note.topic.name(), note.text.clone())).collect();
+        let told = built.report().map(|note| (note.topic.name(), in_python(&note.text)));
+        let report = told.collect();
         Self::of(built.into_bytes(), report)
     }
 
@@ -167,6 +168,11 @@ impl Model {
         ];
         let words: Vec<&str> = words.iter().filter(|word| word.1).map(|word| word.0).collect();
         facts.set_item("serves", words)?;
+        let segments = || curve.as_ref().map(Curve::segment_count);
+        let deformable = blob.deformable_hull().ok();
+        let of_frames = || deformable.as_ref().map(|hull| hull.rest().triangle_count());
+        let elements = tree.as_ref().map(|tree| tree.triangle_count());
+        facts.set_item("elements", elements.or_else(segments).or_else(of_frames))?;
         facts.set_item("is_curve", curve.is_some())?;
         facts.set_item("is_flat", curve.as_ref().is_some_and(Curve::is_planar))?;
         let stored = self.stored_bounds();
@@ -175,8 +181,7 @@ impl Model {
         facts.set_item("is_closed", tree.as_ref().map(Bvh::is_closed))?;
         let is_fence = || curve.as_ref().map(|curve| curve.check_fence().is_ok());
         facts.set_item("has_sides", tree.as_ref().map(has_sides).or_else(is_fence))?;
-        let deformable = blob.deformable_hull().ok();
-        facts.set_item("frames", deformable.map(|hull| hull.frames()))?;
+        facts.set_item("frames", deformable.as_ref().map(|hull| hull.frames()))?;
         facts.set_item("field_kind", blob.sdf().ok().map(|field| field.kind().name()))?;
         let of_curve = || curve.as_ref().map(Curve::surface_error);
         facts.set_item("surface_error", tree.as_ref().map(Bvh::surface_error).or_else(of_curve))?;

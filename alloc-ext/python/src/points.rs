@@ -50,7 +50,7 @@ impl Model {
             });
         };
         let (py, size, rows) = (asked.py(), asked.size(), asked.rows::<3>()?);
-        let mut records = vec![0; rows.len() * size];
+        let mut records = asked.zeroed()?;
         // Blocks of whole batches: then the work depends on no time.
         in_blocks(py, rows.len(), BATCH, |block| {
             let records = &mut records[block.start * size..];
@@ -59,7 +59,7 @@ impl Model {
             for (found, record) in found.into_iter().zip(records.chunks_mut(size)) {
                 Closest::from(found).put(&mut Put::new(record));
             }
-            refused.map_or(Ok(()), |refused| Err((begin + refused.index, refused.error)))
+            refused.map_or(Ok(()), |refused| Err((begin + refused.index, refused.error).into()))
         })?;
         Ok(PyArray1::from_vec(py, records))
     }

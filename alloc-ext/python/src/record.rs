@@ -1,4 +1,4 @@
-//! Answers as packed records, in this machine's byte order. The dtypes of
+//! Answers as records, in this machine's byte order. The dtypes of
 //! `python/meshsweep/_records.py` have the same fields in the same order.
 
 use meshsweep::distances::{AnyWithin, Closest, Element};
@@ -15,29 +15,33 @@ pub trait Answer {
     fn put(&self, put: &mut Put<'_>);
 }
 
-/// A record that is being written.
-pub struct Put<'a>(&'a mut [u8]);
+/// A record that is being written. Fields are aligned as those of a structure in C.
+pub struct Put<'a> {
+    record: &'a mut [u8],
+    /// Bytes that are written.
+    end: usize,
+}
 
 impl<'a> Put<'a> {
     /// Writes from the beginning of `record`.
     pub fn new(record: &'a mut [u8]) -> Self {
-        Self(record)
+        Self { record, end: 0 }
     }
 
-    fn bytes(&mut self, bytes: &[u8]) -> &mut Self {
-        let record = core::mem::take(&mut self.0);
-        let (now, later) = record.split_at_mut(bytes.len());
-        now.copy_from_slice(bytes);
-        self.0 = later;
+    /// Bytes of a field of `T`, or of several.
+    fn bytes<T>(&mut self, bytes: &[u8]) -> &mut Self {
+        let begin = self.end.next_multiple_of(align_of::<T>());
+        self.end = begin + bytes.len();
+        self.record[begin..self.end].copy_from_slice(bytes);
         self
     }
 
     fn byte(&mut self, byte: u8) -> &mut Self {
-        self.bytes(&[byte])
+        self.bytes::<u8>(&[byte])
     }
 
     fn floats(&mut self, floats: &[f32]) -> &mut Self {
-        floats.iter().fold(self, |put, x| put.bytes(&x.to_ne_bytes()))
+        floats.iter().fold(self, |put, x| put.bytes::<f32>(&x.to_ne_bytes()))
     }
 
     /// A place, or NaN.
@@ -51,7 +55,7 @@ impl<'a> Put<'a> {
 
     /// A number of the input file, or -1.
     fn number(&mut self, number: Option<u32>) -> &mut Self {
-        self.bytes(&number.map_or(-1, i64::from).to_ne_bytes())
+        self.bytes::<i64>(&number.map_or(-1, i64::from).to_ne_bytes())
     }
 
     /// Two numbers, or -1 twice.
@@ -94,7 +98,7 @@ impl<'a> Put<'a> {
             Side::Inside => -1,
             _ => 0,
         };
-        self.bytes(&sign.to_ne_bytes())
+        self.bytes::<i8>(&sign.to_ne_bytes())
     }
 
     /// How a search ended, and its work.
@@ -106,7 +110,7 @@ impl<'a> Put<'a> {
             Ended::Scratch => 3,
             _ => 4,
         });
-        self.bytes(&work.total().to_ne_bytes());
+        self.bytes::<u32>(&work.total().to_ne_bytes());
     }
 
     /// The same of a search that gave a verdict.
@@ -124,7 +128,9 @@ impl<'a> Put<'a> {
 /// The answers of a row, one behind the other.
 impl<A: Answer> Answer for Vec<A> {
     fn put(&self, put: &mut Put<'_>) {
-        self.iter().for_each(|answer| answer.put(put));
+        let size = put.record.len() / self.len().max(1);
+        let records = put.record.chunks_mut(size.max(1));
+        self.iter().zip(records).for_each(|(answer, record)| answer.put(&mut Put::new(record)));
     }
 }
 

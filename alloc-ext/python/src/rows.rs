@@ -5,27 +5,34 @@ use crate::pool::on_all_cores;
 use crate::record::{Answer, Put};
 use meshsweep_core::{QueryError, ScratchEntry};
 use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use rayon::current_num_threads;
 use rayon::prelude::*;
 use std::array;
+use std::collections::TryReserveError;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Rows that a thread takes at once: enough to make the cost of taking them vanish.
+/// Rows that a thread takes at once, at most: enough to make the cost of taking them vanish.
 const AT_ONCE: usize = 512;
+
+/// A thread takes no more of a block at once than this part of its share: then threads that end
+/// early find something to do.
+const OF_SHARE: usize = 4;
 
 /// Room for answers to a row at first.
 const ROOM: usize = 64;
-
-/// Rows before the first look for Ctrl-C.
-const FIRST_BLOCK: usize = 1 << 11;
 
 /// Rows of the largest block: of some questions the answers to a block are twice in memory.
 const MOST: usize = 1 << 20;
 
 /// A block of rows that takes less makes the next one twice as large.
 const SHORT: Duration = Duration::from_millis(50);
+
+/// A block of rows that takes less makes the next one sixteen times as large.
+const MOMENT: Duration = Duration::from_micros(500);
 
 /// A block of rows that takes more makes the next one half as large.
 const LONG: Duration = Duration::from_millis(400);
@@ -57,6 +64,34 @@ pub struct Lists<'py> {
     is_complete: Bound<'py, PyArray1<bool>>,
 }
 
+/// Why there are no answers.
+pub enum Failed {
+    /// This row is refused.
+    Row(usize, QueryError),
+    Memory,
+}
+
+impl From<(usize, QueryError)> for Failed {
+    fn from((row, error): (usize, QueryError)) -> Self {
+        Self::Row(row, error)
+    }
+}
+
+impl From<TryReserveError> for Failed {
+    fn from(_: TryReserveError) -> Self {
+        Self::Memory
+    }
+}
+
+impl From<Failed> for PyErr {
+    fn from(failed: Failed) -> Self {
+        match failed {
+            Failed::Row(row, error) => of_query(Some(row), error),
+            Failed::Memory => PyMemoryError::new_err("the answers take more memory than there is"),
+        }
+    }
+}
+
 impl<'py> IntoPyObject<'py> for Lists<'py> {
     type Target = PyTuple;
     type Output = Bound<'py, PyTuple>;
@@ -70,7 +105,7 @@ impl<'py> IntoPyObject<'py> for Lists<'py> {
 impl<'py> Asked<'py> {
     /// Of answers with `count` records each.
     pub fn with_each(self, count: usize) -> Self {
-        Self(self.0, self.1 * count)
+        Self(self.0, self.1.saturating_mul(count))
     }
 
     /// Bytes of a record.
@@ -80,6 +115,17 @@ impl<'py> Asked<'py> {
 
     pub fn py(&self) -> Python<'py> {
         self.0.py()
+    }
+
+    /// Zeroed bytes for a record of each row.
+    ///
+    /// # Errors
+    /// The memory is too short.
+    pub fn zeroed(&self) -> PyResult<Vec<u8>> {
+        let mut records = Vec::new();
+        let bytes = self.0.shape()[0].checked_mul(self.1).ok_or(Failed::Memory)?;
+        grow(&mut records, bytes, 0)?;
+        Ok(records)
     }
 
     /// Rows of `N` numbers each.
@@ -96,7 +142,7 @@ impl<'py> Asked<'py> {
     /// Answers each row with a record. `one` gets scratch memory of so many entries.
     ///
     /// # Errors
-    /// Of the first row that is refused; Ctrl-C; rows of another width.
+    /// Of the first row that is refused; Ctrl-C; rows of another width; the memory is too short.
     pub fn each<const N: usize, A: Answer>(
         &self,
         entries: usize,
@@ -117,10 +163,11 @@ impl<'py> Asked<'py> {
     ) -> PyResult<Records<'py>> {
         let (floats, size) = (self.0.as_slice()?, self.1);
         let (count, width) = (self.0.shape()[0], self.0.shape()[1]);
-        let mut records = vec![0; count * size];
-        in_blocks(self.py(), count, FIRST_BLOCK, |Range { start, end }| {
-            let rows = floats[start * width..end * width].par_chunks(AT_ONCE * width);
-            let pieces = rows.zip(records[start * size..end * size].par_chunks_mut(AT_ONCE * size));
+        let mut records = self.zeroed()?;
+        in_blocks(self.py(), count, current_num_threads(), |Range { start, end }| {
+            let at_once = at_once(end - start);
+            let rows = floats[start * width..end * width].par_chunks(at_once * width);
+            let pieces = rows.zip(records[start * size..end * size].par_chunks_mut(at_once * size));
             let refused = pieces.enumerate().find_map_first(|(piece, (rows, records))| {
                 let mut scratch = vec![ScratchEntry::EMPTY; entries];
                 let mut pairs = rows.chunks(width).zip(records.chunks_mut(size)).enumerate();
@@ -129,10 +176,10 @@ impl<'py> Asked<'py> {
                         answer.put(&mut Put::new(record));
                         None
                     }
-                    Err(error) => Some((start + piece * AT_ONCE + index, error)),
+                    Err(error) => Some((start + piece * at_once + index, error)),
                 })
             });
-            refused.map_or(Ok(()), Err)
+            refused.map_or(Ok(()), |refused| Err(refused.into()))
         })?;
         Ok(PyArray1::from_vec(self.py(), records))
     }
@@ -150,8 +197,8 @@ impl<'py> Asked<'py> {
     ) -> PyResult<Lists<'py>> {
         let (rows, size) = (self.rows::<N>()?, self.1);
         let (mut begins, mut records, mut is_complete) = (vec![0], Vec::new(), Vec::new());
-        in_blocks(self.py(), rows.len(), FIRST_BLOCK, |block| {
-            let begin = block.start;
+        in_blocks(self.py(), rows.len(), current_num_threads(), |block| {
+            let (begin, at_once) = (block.start, at_once(block.len()));
             let piece = |(piece, rows): (usize, &[[f32; N]])| {
                 let (mut ends, mut records) = (Vec::new(), Vec::new());
                 let mut scratch = vec![ScratchEntry::EMPTY; entries];
@@ -159,28 +206,30 @@ impl<'py> Asked<'py> {
                 for (index, row) in rows.iter().enumerate() {
                     let mut ask = |room: &mut Vec<A>| {
                         let found = one(*row, room, &mut scratch);
-                        found.map_err(|error| (begin + piece * AT_ONCE + index, error))
+                        found.map_err(|error| Failed::Row(begin + piece * at_once + index, error))
                     };
                     let mut found = ask(&mut room)?;
                     if found.dropped > 0 {
-                        room.resize(found.stored + found.dropped as usize, empty);
+                        let more = found.stored + found.dropped as usize - room.len();
+                        grow(&mut room, more, empty)?;
                         found = ask(&mut room)?;
                     }
                     for answer in room.iter().take(found.stored) {
                         let begin = records.len();
-                        records.resize(begin + size, 0);
+                        grow(&mut records, size, 0)?;
                         answer.put(&mut Put::new(&mut records[begin..]));
                     }
                     ends.push((records.len(), found.is_complete));
                 }
                 Ok((ends, records))
             };
-            let pieces: Vec<_> = rows[block].par_chunks(AT_ONCE).enumerate().map(piece).collect();
-            let pieces = pieces.into_iter().collect::<Result<Vec<(Vec<_>, Vec<u8>)>, _>>()?;
+            let pieces: Vec<_> = rows[block].par_chunks(at_once).enumerate().map(piece).collect();
+            let pieces = pieces.into_iter().collect::<Result<Vec<(Vec<_>, Vec<u8>)>, Failed>>()?;
             for (ends, of_piece) in pieces {
                 let before = records.len();
                 begins.extend(ends.iter().map(|end| ((before + end.0) / size) as u64));
                 is_complete.extend(ends.iter().map(|end| end.1));
+                records.try_reserve(of_piece.len())?;
                 records.extend(of_piece);
             }
             Ok(())
@@ -193,27 +242,39 @@ impl<'py> Asked<'py> {
     }
 }
 
+/// Adds so many copies of a value.
+fn grow<T: Copy>(values: &mut Vec<T>, more: usize, value: T) -> Result<(), Failed> {
+    values.try_reserve(more)?;
+    values.resize(values.len() + more, value);
+    Ok(())
+}
+
+/// Rows of a block that a thread takes at once.
+fn at_once(rows: usize) -> usize {
+    (rows / (OF_SHARE * current_num_threads())).clamp(1, AT_ONCE)
+}
+
 /// Does the work of successive blocks of rows on all cores, and looks for Ctrl-C between them. The
 /// first has `first` rows. The others have `first` times a power of two, and at least `first`.
 ///
 /// # Errors
-/// Of a row that is refused; Ctrl-C.
+/// Of a row that is refused; Ctrl-C; the memory is too short.
 pub fn in_blocks(
     py: Python<'_>,
     count: usize,
     first: usize,
-    mut work: impl FnMut(Range<usize>) -> Result<(), (usize, QueryError)> + Send,
+    mut work: impl FnMut(Range<usize>) -> Result<(), Failed> + Send,
 ) -> PyResult<()> {
     let (mut begin, mut most) = (0, first);
     while begin < count {
         let block = begin..count.min(begin + most);
         begin = block.end;
         let before = Instant::now();
-        let done = py.detach(|| on_all_cores(|| work(block)))?;
-        done.map_err(|(row, error)| of_query(Some(row), error))?;
+        py.detach(|| on_all_cores(|| work(block)))??;
         py.check_signals()?;
         match before.elapsed() {
-            took if took < SHORT => most = (2 * most).min(MOST),
+            took if took < MOMENT && 16 * most <= MOST => most *= 16,
+            took if took < SHORT && 2 * most <= MOST => most *= 2,
             took if took > LONG => most = (most / 2).max(first),
             _ => (),
         }

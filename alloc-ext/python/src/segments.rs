@@ -2,6 +2,7 @@
 
 use crate::error::QueryError;
 use crate::model::{Model, budget};
+use crate::rounding::moved;
 use crate::rows::{Asked, Found, Lists, Records};
 use meshsweep_core::{AllHits, Facing, TriangleHit};
 use pyo3::prelude::*;
@@ -24,6 +25,7 @@ fn facing_of(code: u8) -> PyResult<Facing> {
 
 #[pymethods]
 impl Model {
+    /// Rows have both points, and how far rounding moved each.
     fn first_hit<'py>(
         &self,
         asked: Asked<'py>,
@@ -33,8 +35,12 @@ impl Model {
     ) -> PyResult<Records<'py>> {
         let (facing, budget) = (facing_of(facing)?, budget((0.0, 0.0, steps)));
         let engine = self.engine(facing)?;
-        asked.each(engine.entries(), |row: [f32; 6], scratch| {
-            engine.first_hit(ends(&row), is_ray, facing, budget, scratch)
+        asked.each(engine.entries(), |row: [f32; 8], scratch| {
+            let found = engine.first_hit(ends(&row), is_ray, facing, budget, scratch)?;
+            match found.is_clear() && moved(&row) > 0.0 {
+                true => engine.as_given(&row, is_ray, found, budget, scratch),
+                false => Ok(found),
+            }
         })
     }
 

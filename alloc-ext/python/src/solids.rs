@@ -15,7 +15,7 @@ fn corners(row: &[f32]) -> (&[[f32; 3]], f32) {
 }
 
 /// A box tree, or a field that is asked first.
-enum Asks<'a> {
+pub enum Asks<'a> {
     Tree(Bvh<'a>),
     FieldFirst(BvhWithSdf<'a>),
 }
@@ -30,7 +30,10 @@ impl Asks<'_> {
 
     /// The first contact of a solid that moves from one pair of corners to the other. No corner is
     /// farther than `moved` from where the caller wants it, at any instant.
-    fn first_contact(
+    ///
+    /// # Errors
+    /// Those of the question.
+    pub fn first_contact(
         &self,
         [from, to]: [&[[f32; 3]]; 2],
         radius: f64,
@@ -144,7 +147,7 @@ impl Model {
     }
 
     /// The first contact of one tool that is carried along each segment. Rows of `tool` are its
-    /// corners, others have both ends of a move.
+    /// corners, others have both ends of a move, and how far rounding moved them and the corners.
     fn first_contact<'py>(
         &self,
         asked: Asked<'py>,
@@ -155,9 +158,10 @@ impl Model {
         let (asks, budget) = (self.asks(false)?, budget((0.0, 0.0, steps)));
         let tool = tool.as_slice()?.as_chunks::<3>().0;
         Solid::new(tool, radius as f32).map_err(|error| of_query(None, error))?;
-        asked.each(asks.entries(), |row: [f32; 6], scratch| {
+        asked.each(asks.entries(), |row: [f32; 7], scratch| {
             let [(from, off), (to, off_there)] = ends(&row).map(|place| placed(tool, place));
-            asks.first_contact([&from, &to], radius, off.max(off_there), budget, scratch)
+            let moved = off.max(off_there) + f64::from(row[6]);
+            asks.first_contact([&from, &to], radius, moved, budget, scratch)
         })
     }
 }

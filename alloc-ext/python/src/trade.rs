@@ -1,7 +1,7 @@
 //! The trade of a mesh, measured, and the setting of it that meets limits.
 
 use crate::build::{named, unit_named};
-use crate::error::{BuildError, of_build, of_query};
+use crate::error::{BuildError, in_python, of_build, of_query, refused};
 use crate::mesh::Given;
 use crate::model::Model;
 use crate::pool::aside;
@@ -100,7 +100,7 @@ pub fn trade(py: Python<'_>, wanted: Wanted<'_>) -> PyResult<Measured> {
     Ok(Measured {
         rows: trade.rows.iter().map(|row| told(row, &best)).collect(),
         not_built: missing
-            .map(|missing| (missing.recipe.name(), missing.reason.to_string()))
+            .map(|missing| (missing.recipe.name(), in_python(&missing.reason)))
             .collect(),
         needles: trade.needles,
     })
@@ -118,7 +118,7 @@ pub fn choose(py: Python<'_>, wanted: Wanted<'_>, device: Device) -> PyResult<(M
         Question::Within(_) => false,
         _ => !is_fence,
     });
-    let unmet = |unmet: of::Unmet| BuildError::new_err(unmet.to_string());
+    let unmet = |unmet: of::Unmet| refused(&unmet);
     let of::Choice { first, second, built, .. } = limits.choose(&trade).map_err(unmet)?;
     let best = best(&trade);
     let (first, second) = (told(&first, &best), second.map(|second| told(&second, &best)));

@@ -5,9 +5,10 @@ use crate::error::missing;
 use crate::model::{Model, budget};
 use crate::pairs::pose;
 use crate::record::Clipped;
+use crate::rounding::{Way, moved};
 use crate::rows::{Asked, Found, Lists, Records};
 use crate::segments::ends;
-use meshsweep_core::{Budget, NodePair, TriboxCandidates, Triboxes};
+use meshsweep_core::{Budget, Ended, NodePair, TriboxCandidates, Triboxes};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -65,12 +66,27 @@ impl Model {
         })
     }
 
-    /// The parameter before which each segment is clear. Rows have both ends.
+    /// The parameter before which each segment is clear. Rows have both ends, and how far rounding
+    /// moved each.
     fn tribox_hit<'py>(&self, asked: Asked<'py>, steps: Option<u32>) -> PyResult<Records<'py>> {
         let (triboxes, budget) = (self.stored_triboxes()?, budget((0.0, 0.0, steps)));
-        asked.each(triboxes.scratch_entries(), |row: [f32; 6], scratch| {
+        asked.each(triboxes.scratch_entries(), |row: [f32; 8], scratch| {
             let [a, b] = ends(&row);
-            triboxes.clip(a, b, budget, scratch).map(Clipped)
+            let mut found = triboxes.clip(a, b, budget, scratch)?;
+            if found.lower == f32::INFINITY && moved(&row) > 0.0 {
+                let mut last = None;
+                let (part, work) = Way::of_segment([a, b], moved(&row)).cleared(|centre| {
+                    let near = triboxes.distance(centre, budget, scratch)?;
+                    last = near.node;
+                    Ok((near.lower, near.work))
+                })?;
+                found.work = found.work.and(work);
+                if part < 1.0 {
+                    (found.node, found.ended) = (last, Ended::Resolution);
+                    found.lower = (part as f32).next_down().max(0.0);
+                }
+            }
+            Ok(Clipped(found))
         })
     }
 

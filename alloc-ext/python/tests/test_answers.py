@@ -86,6 +86,62 @@ def test_all_within_leaves_out_no_triangle_and_nearest_orders_them():
     assert (near.lower <= wanted + 1e-12).all() and (wanted - 1e-12 <= near.upper).all()
 
 
+def test_each_point_has_a_distance_of_its_own_if_wanted_and_work_counts_both_searches():
+    part = meshsweep.build(sphere(), "closest,segment")
+    points = around(5, 1.0, 60)
+    many = np.random.default_rng(6).uniform(0, 1, 60)
+    for ask, rows in [(part.within, points), (part.solid_within, points[:, None])]:
+        found = ask(rows, many)
+        for row, distance in enumerate(many):
+            (one,) = ask(rows[row : row + 1], distance)
+            assert one.verdict == found[row].verdict and one.triangle == found[row].triangle
+        single, exact = rows.astype(np.float32), np.float32(0.5)
+        below = ask(single, np.nextafter(exact, np.float32(0)))
+        above = ask(single, np.nextafter(exact, np.float32(1)))
+        both = ask(single, np.float64(exact) + 1e-12)
+        assert both.work.sum() > ask(single, exact).work.sum()
+        assert abs(int(both.work.sum()) - int(below.work.sum() + above.work.sum())) < 100
+
+
+def test_a_winding_number_has_a_side_of_the_point_as_given_or_none():
+    vertices, triangles = sphere()
+    points = around(2, 1.0)
+    moved = (points != points.astype(np.float32)).any(axis=1)
+    closed = meshsweep.build((vertices, triangles), "winding")
+    assert (closed.winding_number(points).side[moved] != Side.UNDECIDED).all()
+    # Within the rounding of the surface.
+    middle = vertices.astype(np.float64)[triangles].mean(axis=1)
+    near = middle * (1 + np.random.default_rng(9).uniform(-1e-8, 1e-8, (len(middle), 1)))
+    assert (closed.winding_number(near).side == Side.UNDECIDED).all()
+    # Of an open mesh it changes everywhere.
+    ajar = meshsweep.build((vertices, triangles[1:]), "winding")
+    assert (ajar.winding_number(points).side[moved] == Side.UNDECIDED).all()
+    assert (ajar.winding_number(points.astype(np.float32)).side != Side.UNDECIDED).mean() > 0.9
+
+
+def test_lists_give_the_records_of_a_row_when_they_are_wanted():
+    part = meshsweep.build(sphere())
+    points = around(4, 1.0, 60).astype(np.float32)
+    found = part.all_within(points, 0.6)
+    assert isinstance(found, meshsweep.Lists) and len(found) == 60
+    assert found.begins.shape == (61,) and found.begins[-1] == len(found.records)
+    assert [len(row) for row in found] == np.diff(found.begins).tolist()
+    for row in [0, 7, np.int64(59), -1]:
+        wanted = list(found)[row]
+        assert found[row].tobytes() == wanted.tobytes() and len(wanted.triangle) == len(wanted)
+    assert [row.tobytes() for row in found[5:9]] == [found[row].tobytes() for row in range(5, 9)]
+    with pytest.raises(IndexError):
+        found[60]
+    assert "60 rows" in repr(found)
+
+
+@pytest.mark.parametrize("count", [5, 5000])
+def test_nearest_of_no_points_has_the_width_of_others(count):
+    part = meshsweep.build(sphere())
+    none, one = (part.nearest(np.zeros((rows, 3)), count) for rows in (0, 1))
+    assert none.shape == (0, *one.shape[1:]) and one.shape[1] == min(count, len(sphere()[1]))
+
+
 def test_segments_through_the_middle_hit_twice_and_those_beside_are_clear():
     vertices, triangles = sphere()
     part = meshsweep.build((vertices, triangles))

@@ -31,7 +31,10 @@ def test_the_bytes_are_those_that_are_saved_loaded_and_pickled(tmp_path, fixture
     assert part.serves == ["closest", "tight"] and part.is_closed and part.has_sides
     part.save(tmp_path / "part.msw")
     again = meshsweep.load(tmp_path / "part.msw")
-    assert bytes(again) == bytes(part) == bytes(pickle.loads(pickle.dumps(part)))
+    copied = pickle.loads(pickle.dumps(part))
+    assert bytes(again) == bytes(part) == bytes(copied) and copied.report == part.report
+    assert again == part == copied and len({again, part, copied}) == 1 and part != bytes(part)
+    assert part != meshsweep.build(fixtures / "bracket.stl")
     assert again.report == [] and any("read" in note.text for note in part.report)
     assert "closest,tight" in repr(part)
 
@@ -67,9 +70,60 @@ def test_options_are_refused_by_name():
         ({"tight_faces": [20]}, "tight"),
         ({"for_": "sdf", "sdf_bytes": 1}, "sdf"),
         ({"unit": "mile"}, "um, mm"),
+        ({"unit": 3}, "unit: a string is wanted, not 3"),
+        ({"for_": None}, "for_: words are wanted"),
+        ({"for_": 5}, "for_: words are wanted"),
+        ({"for_": [1]}, "for_: words are wanted"),
+        ({"for_": b"closest"}, "for_: words are wanted"),
+        ({"tight_for": 5}, "tight_for: words are wanted"),
+        ({"vertex_bits": -1}, "vertex_bits: -1 is none from 0"),
+        ({"base_faces": 2**32}, "base_faces: 4294967296 is none from 0"),
+        ({"triboxes": 1.5}, "triboxes: a whole number is wanted"),
+        ({"sdf_bytes": "4096"}, "sdf_bytes: a whole number is wanted"),
+        ({"tight_faces": [20.5]}, "tight_faces: a whole number is wanted"),
+        ({"tight_faces": [None]}, "tight_faces: whole numbers are wanted"),
+        ({"slack": "1"}, "slack: one number is wanted"),
+        ({"sdf_error": 10**400}, "sdf_error: a number is beyond double"),
+        ({"extrema": "no"}, "extrema: True or False is wanted"),
+        ({"closed": 1}, "closed: True or False is wanted"),
+        ({"frames": 5}, "frames: a list of files is wanted, not 5"),
+        ({"frames": [5]}, "frames: a list of files is wanted"),
     ]:
         with pytest.raises(meshsweep.BuildError, match=words):
             meshsweep.build(sphere(), **options)
+
+
+def test_no_refusal_speaks_of_the_programs_options_or_of_rust(fixtures):
+    part, fence = meshsweep.build(sphere()), fixtures / "fence.csv"
+    ajar = sphere()[0], sphere()[1][1:]
+    half = np.diag([0.5, 1, 1, 1])
+    for ask, words in [
+        (lambda: meshsweep.build(sphere(), "tight", tight_faces=[0]), "tight_faces 0: a number"),
+        (lambda: meshsweep.build(sphere(), "sdf", sdf_error=-1), "sdf_error -1: a finite"),
+        (lambda: meshsweep.build(sphere(), closed=True), 'closed=True is .*; add for_="curve"'),
+        (lambda: meshsweep.build(sphere(), frames=["a.ply"]), 'add for_="deform"'),
+        (lambda: meshsweep.build(sphere(), base_faces=9), "add hull to for_"),
+        (lambda: meshsweep.build(sphere(), "tight", slack=1, void_percent=2), "and void_percent"),
+        (lambda: meshsweep.build(fence, "closest"), 'serves for_="curve" only'),
+        (lambda: meshsweep.build(ajar, "hull"), 'the mesh: .*\n.*\n.* for_="sweep,deform"$'),
+        (lambda: meshsweep.build(ajar, "sdf", sdf_kind="signed"), 'ask for sdf_kind="surface"'),
+        (lambda: meshsweep.build("a --b--c.stl"), "b--c.stl: cannot be read"),
+        (lambda: part.cut(level=0), 'build it with for_="hull"'),
+        (lambda: part.distance_to(part, half), "row 0: the pose's matrix is no rotation, or it is"),
+        (lambda: part.tribox_overlap(part), 'with for_="triboxes"'),
+        (
+            lambda: part.first_hit([1e30, 0, 0], [1e30, 1, 0]),
+            "row 0: a point.* too far away: clip segm",
+        ),
+        (lambda: meshsweep.choose(sphere(6, 8), flash=10), "needs flash .* instead of 10"),
+        (lambda: meshsweep.hausdorff(sphere(), (np.zeros((0, 3)), np.zeros((0, 3), int))), "b: "),
+    ]:
+        with pytest.raises(meshsweep.MeshsweepError, match=words) as refused:
+            ask()
+        said = str(refused.value).replace("b--c.stl", "")
+        assert not [word for word in ["--", "::", "(memory)", "joint"] if word in said], said
+    notes = meshsweep.build(sphere(), unit="mm").report
+    assert not any("--" in note.text for note in notes)
 
 
 def test_questions_are_refused_with_the_row_and_the_word_to_build_with():
@@ -101,6 +155,15 @@ def test_questions_are_refused_with_the_row_and_the_word_to_build_with():
         (lambda part: part.within([[0, 0, 0]], "far"), "one number"),
         (lambda part: part.within([[0, 0, 0]], [1, 2]), "one number"),
         (lambda part: part.within([[0, 0, 0]], 1e39), "single precision"),
+        (lambda part: part.within([[0, 0, 0]], "1"), "one number is wanted, not '1'"),
+        (lambda part: part.within([[0, 0, 0]], 10**400), "beyond double precision"),
+        (lambda part: part.within([[1e-9, 0, 0]], 3.4028234e38), "rounding it is beyond"),
+        (lambda part: part.within(np.zeros((2, 3)), [1, -1]), "row 1: distance: -1.0 is negative"),
+        (lambda part: part.within(np.zeros((2, 3)), [1]), r"shape \(2,\) is wanted, not \(1,\)"),
+        (lambda part: part.within([[0, 0, 0]], 1, field_first=1), "True or False"),
+        (lambda part: part.closest_point([[0, 0, 0]], precise="no"), "precise: True or False"),
+        (lambda part: part.triboxes(1.5), "count: a whole number"),
+        (lambda part: part.first_contact_of(part, np.eye(4), np.eye(4), straight=0), "straight"),
         (lambda part: part.first_hit(np.zeros((2, 3)), np.zeros((3, 3))), "2 starts for 3 ends"),
         (lambda part: part.first_hit([[0, 0, 0]], [[1, 0, 0]], facing=7), "Facing"),
         (lambda part: part.distance_to(np.zeros((2, 3))), "another Model is wanted"),
@@ -130,6 +193,20 @@ def test_arguments_of_other_kinds_are_told_what_is_wanted():
         meshsweep.build(scene)
     with pytest.raises(meshsweep.BuildError, match="masked"):
         meshsweep.build((np.ma.array(sphere()[0]), sphere()[1]))
+
+
+def test_fields_of_records_are_aligned():
+    dtypes = [of for of in vars(meshsweep._records).values() if isinstance(of, np.dtype)]
+    assert len(dtypes) > 20 and all(of.isalignedstruct for of in dtypes)
+    part = meshsweep.build(sphere(), "closest,segment,winding")
+    points = np.random.default_rng(5).uniform(-2, 2, (7, 3)).astype(np.float32)
+    for found in [
+        part.closest_point(points),
+        part.nearest(points, 3),
+        part.first_hit(points, -points),
+    ]:
+        assert all(found[name].flags.aligned for name in found.dtype.names)
+        assert (found.triangle >= -1).all() and (found.triangle < len(sphere()[1])).all()
 
 
 def test_rows_of_every_layout_give_the_same_answers():
@@ -216,6 +293,49 @@ def test_ctrl_c_ends_a_question_soon():
     assert time.perf_counter() - sent[0] < 2
 
 
+def test_ctrl_c_ends_a_slow_question_soon():
+    part = meshsweep.build(sphere(20, 30), "closest,segment,winding")
+    poses = np.tile(np.eye(4), (2000, 1, 1))
+    poses[:, :3, 3] = np.random.default_rng(4).uniform(-0.6, 0.6, (2000, 3))
+    sent = []
+
+    def send():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Timer(0.3, send).start()
+    with pytest.raises(KeyboardInterrupt):
+        part.penetration(part, poses)
+    assert time.perf_counter() - sent[0] < 3
+
+
+def test_answers_that_memory_does_not_hold_are_refused():
+    script = """
+import resource, sys
+import meshsweep, numpy as np
+sys.path.insert(0, "tests")
+from conftest import sphere
+
+part = meshsweep.build(sphere(40, 60))
+points = np.zeros((20_000, 3), np.float32)
+part.all_within(points[:100], 2.0)  # starts the threads
+with open("/proc/self/statm") as told:
+    taken = int(told.read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (taken + (1 << 29),) * 2)
+for ask in [part.nearest, part.all_within]:
+    try:
+        ask(points, 4000 if ask == part.nearest else 2.0)
+    except MemoryError as error:
+        assert "take more memory" in str(error)
+        continue
+    raise AssertionError
+assert len(part.nearest(points[:10], 2**32 - 1)) == 10
+"""
+    if not os.path.exists("/proc/self/statm"):
+        pytest.skip("the memory of a process is not told")
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=100)
+
+
 @pytest.mark.parametrize("what", ["verify", "trade"])
 def test_ctrl_c_ends_a_proof_and_a_trade_soon(what):
     mesh = sphere(6, 8)
@@ -289,6 +409,12 @@ def test_the_tour_shows_a_part(fixtures):
     assert "clear, proved" in shown and "100,000 closest points" in shown
     bad = subprocess.run([*run[:-1], "nowhere.stl"], capture_output=True, text=True, check=False)
     assert bad.returncode == 1 and "nowhere.stl" in bad.stderr
+    for other in sorted(map(str, [*fixtures.glob("*.msw"), fixtures / "fence.csv"])):
+        run = [sys.executable, "-m", "meshsweep", other]
+        shown = subprocess.run(run, capture_output=True, text=True, check=True).stdout
+        assert " bytes for " in shown and ("box " in shown or "knows no bounds" in shown)
+    told = subprocess.run([*run[:-1], "--help"], capture_output=True, text=True, check=True)
+    assert "usage" in told.stdout and not told.stderr
 
 
 def test_the_lines_of_the_readme_run(tmp_path, monkeypatch, fixtures):

@@ -91,14 +91,15 @@ def test_what_cannot_be_refined_or_cut_is_refused(part):
     ]:
         with pytest.raises(meshsweep.QueryError, match=words):
             part.refine(**options)
-    with pytest.raises(meshsweep.NotServedError, match="hull"):
-        plain.refine(0)
+    for ask in [lambda: plain.refine(0), plain.hull_levels]:
+        with pytest.raises(meshsweep.NotServedError, match="hull"):
+            ask()
     for options, words in [
         ({"level": 99}, "level 99 does not exist"),
         ({"level": -1}, "level: -1 is none"),
         ({"tight": 1.5}, "tight: a whole number"),
     ]:
-        with pytest.raises(meshsweep.MeshsweepError, match=words):
+        with pytest.raises(meshsweep.BuildError, match=words):
             part.cut(**options)
     for options in [{"level": 0}, {"triboxes": 1}, {"tight": 8}]:
         with pytest.raises(meshsweep.BuildError, match="to cut"):

@@ -62,8 +62,12 @@ def test_what_cannot_be_measured_is_refused(fixtures):
         ({"at": np.zeros((4, 2))}, "shape"),
         ({"at": [[np.inf, 0, 0]]}, "finite"),
         ({"count": 0}, "at least 1"),
+        ({"count": 1.5}, "count: a whole number"),
+        ({"count": 2**70}, "count: .* is none from 0"),
+        ({"for_": None}, "closest, segment"),
+        ({"unit": 3}, "unit: a string"),
     ]:
-        with pytest.raises(meshsweep.MeshsweepError, match=words):
+        with pytest.raises(meshsweep.BuildError, match=words):
             meshsweep.trade(sphere(), **options)
     with pytest.raises(meshsweep.BuildError, match="curves are measured for closest"):
         meshsweep.trade(fixtures / "fence.csv", "segment")
@@ -113,9 +117,9 @@ def test_the_choice_is_the_best_of_the_settings_that_meet_the_limits():
         clock = 2000.1 * min(of(row, cpu).at_most for row in rows)
         found = meshsweep.choose(mesh, rate=1000, cpu=(name, clock), **how).first
         assert of(found, cpu).at_most * 2000 <= clock
-        with pytest.raises(meshsweep.BuildError, match="--rate 500Hz instead of 1000Hz"):
+        with pytest.raises(meshsweep.BuildError, match="rate 500Hz instead of 1000Hz"):
             meshsweep.choose(mesh, rate=1000, cpu=(name, clock / 2), **how)
-    with pytest.raises(meshsweep.BuildError, match=r"which needs --flash .* instead of 10"):
+    with pytest.raises(meshsweep.BuildError, match=r"which needs flash .* instead of 10"):
         meshsweep.choose(mesh, flash=10, **how)
 
 

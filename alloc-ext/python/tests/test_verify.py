@@ -58,5 +58,8 @@ def test_what_is_no_mesh_of_the_model_is_refused(fixtures):
             meshsweep.verify(model, mesh)
     with pytest.raises(meshsweep.QueryError, match="a Model is wanted"):
         meshsweep.verify(bytes(part), sphere())
+    for frames in ["k1.ply", 5]:
+        with pytest.raises(meshsweep.BuildError, match="frames: a list of files is wanted"):
+            meshsweep.verify(part, sphere(), frames=frames)
     with pytest.raises(meshsweep.BuildError, match="no key frames"):
         meshsweep.verify(part, sphere(), frames=["a.ply"])

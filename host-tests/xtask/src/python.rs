@@ -68,6 +68,12 @@ pub fn run(steps: &mut Steps) {
         steps.run(title, || process::run(&mut module(&python, tool)));
     }
     if built.is_some() {
+        steps.run("Python: the stub of the Rust half", || {
+            process::run(&mut module(
+                &python,
+                &["mypy.stubtest", "--concise", "meshsweep._meshsweep"],
+            ))
+        });
         steps.run("Python: tests", || {
             process::run(&mut module(
                 &python,

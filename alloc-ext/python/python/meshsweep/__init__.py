@@ -7,16 +7,20 @@
 >>> part.save("part.msw")
 
 Lengths are in the mesh's unit. Questions take rows of an array of shape (n, 3) and give records of
-shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. Of curves in the plane
-z = 0 they take shape (n, 2) too. They run on all cores and without the interpreter's lock; Ctrl-C
-ends them. The bits of the answers are those that firmware computes.
+shape (n,), whose fields are attributes: `near.lower` is `near["lower"]`. Fields
+are aligned, and copies have any bytes between them: compare records by `==`. Of curves in the plane
+z = 0 questions take shape (n, 2) too. They run on all cores and without the interpreter's lock;
+Ctrl-C ends them. Do not write to an array while a question about it runs. The bits of the answers
+are those that firmware computes.
 
 **Rounding.** Questions are asked in single precision. Points in double precision are rounded first,
 and intervals of distances, sides and verdicts about one distance are widened by that, so that they
 hold for the points as given. So are answers about solids, by the rounding of their corners. The
 side by a winding number may change by any motion, so `signed_distance` does not use it for points
-that were moved. Segments, rays and poses are rounded, and the answer is about the rounded one: give
-float32 to see none.
+that were moved, and `winding_number` tells their sides of a closed mesh alone, away from it.
+Segments and rays are rounded, and a `NO` of `first_hit` and of its kin is proved for the one as
+given; all else is about the rounded one. Poses are rounded, and the answer is about the rounded
+one. Give float32 to see no rounding.
 
 **Key frames.** The model of a mesh that deforms, `build(..., "deform", frames=[...])`, is asked
 with `frame`: 1.25 is a quarter of the way from frame 1 to frame 2, and 0 is the mesh at rest.
@@ -32,7 +36,7 @@ from ._hulls import RefinedHull, TightHull
 from ._meshsweep import BlobError, BuildError, MeshsweepError, NotServedError, QueryError
 from ._model import Model, load
 from ._opened import Note
-from ._records import Ended, Facing, Relation, Side, Verdict
+from ._records import Ended, Facing, Lists, Relation, Side, Verdict
 from ._segments import AllHits
 from ._trade import Choice, Instructions, Trade, TradeRow, choose, trade
 from ._triboxes import Triboxes
@@ -50,6 +54,7 @@ __all__ = [
     "Finding",
     "Hausdorff",
     "Instructions",
+    "Lists",
     "MeshsweepError",
     "Model",
     "NotServedError",

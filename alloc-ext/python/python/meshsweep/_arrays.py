@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import operator
-from typing import Any, SupportsFloat
+from typing import Any, SupportsFloat, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._meshsweep import MeshsweepError, QueryError
 from ._records import Facing
+
+MOST = float(np.finfo(np.float32).max)
 
 
 def numbers(
@@ -96,28 +99,65 @@ def solids(given: ArrayLike, what: str = "corners") -> NDArray[Any]:
     return corners
 
 
-def checked(number: SupportsFloat, what: str = "distance") -> float:
-    """A number from 0 to the greatest of single precision."""
+def real(number: SupportsFloat, what: str, refused: type[MeshsweepError] = QueryError) -> float:
+    """A number, which may be infinite or NaN."""
     try:
-        value = float(number)
+        if not isinstance(number, (str, bytes)):
+            return float(number)
+    except OverflowError:
+        raise refused(f"{what}: a number is beyond double precision") from None
     except (TypeError, ValueError):
-        raise QueryError(f"{what}: one number is wanted, not {number!r}") from None
-    if not (np.isfinite(value) and value >= 0):
-        raise QueryError(f"{what}: {number} is negative or not finite")
-    if value > float(np.finfo(np.float32).max):
-        raise QueryError(f"{what}: {number} is beyond single precision")
+        pass
+    raise refused(f"{what}: one number is wanted, not {number!r}")
+
+
+def checked(
+    number: SupportsFloat, what: str = "distance", refused: type[MeshsweepError] = QueryError
+) -> float:
+    """A number from 0 to the greatest of single precision."""
+    value = real(number, what, refused)
+    if not (math.isfinite(value) and value >= 0):
+        raise refused(f"{what}: {number} is negative or not finite")
+    if value > MOST:
+        raise refused(f"{what}: {number} is beyond single precision")
     return value
 
 
-def whole(number: int | None, what: str) -> int | None:
+def distances(given: ArrayLike, count: int) -> NDArray[np.float64]:
+    """A distance for all rows, or one for each."""
+    if not isinstance(given, (list, tuple)) and np.ndim(given) == 0:
+        return np.array([checked(cast(SupportsFloat, given))])
+    values = numbers(given, "distance").astype(np.float64)
+    if values.shape != (count,):
+        wanted = f"one number or shape ({count},)"
+        raise QueryError(f"distance: {wanted} is wanted, not {values.shape}")
+    for row in np.flatnonzero(~((values >= 0) & (values <= MOST)))[:1]:
+        checked(values[row], f"row {row}: distance")
+    return values
+
+
+def whole(number: int | None, what: str, refused: type[MeshsweepError] = QueryError) -> int | None:
     """A whole number of 32 bits, if any is given."""
     try:
         value = None if number is None else operator.index(number)
     except TypeError:
-        raise QueryError(f"{what}: a whole number is wanted, not {number!r}") from None
+        raise refused(f"{what}: a whole number is wanted, not {number!r}") from None
     if value is not None and not 0 <= value < 2**32:
-        raise QueryError(f"{what}: {value} is none from 0 to 2^32 - 1")
+        raise refused(f"{what}: {value} is none from 0 to 2^32 - 1")
     return value
+
+
+def word(given: str | None, what: str, refused: type[MeshsweepError] = QueryError) -> str | None:
+    """A word, if any is given."""
+    if given is not None and not isinstance(given, str):
+        raise refused(f"{what}: a string is wanted, not {given!r}")
+    return given
+
+
+def yes_or_no(given: bool, what: str, refused: type[MeshsweepError] = QueryError) -> bool:
+    if not isinstance(given, (bool, np.bool_)):
+        raise refused(f"{what}: True or False is wanted, not {given!r}")
+    return bool(given)
 
 
 def facing(facing: Facing | int) -> int:

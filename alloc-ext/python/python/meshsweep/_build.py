@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 from . import _meshsweep
-from ._mesh import Bar, Mesh, Progress, given
+from ._arrays import real, whole, word, yes_or_no
+from ._mesh import Bar, Mesh, Progress, files, given
 from ._meshsweep import BuildError
 from ._model import Model
 
@@ -52,12 +54,10 @@ def build(
     Raises `BuildError`, which names the defect and its place, if the mesh or an option is refused.
     What was repaired is in `Model.report`.
     """
-    if isinstance(frames, (str, os.PathLike)):
-        raise BuildError(f"frames: a list of files is wanted, as [{os.fspath(frames)!r}]")
     if isinstance(tight_faces, str) or not isinstance(tight_faces, Iterable | None):
         raise BuildError(f"tight_faces: a list of numbers is wanted, as [{tight_faces}]")
-    options = {
-        "for_": _words(for_),
+    options: dict[str, Any] = {
+        "for_": _words(for_, "for_"),
         "unit": unit,
         "vertex_bits": vertex_bits,
         "base_faces": base_faces,
@@ -65,26 +65,50 @@ def build(
         "tribox_error": tribox_error,
         "orient": orient,
         "extrema": extrema,
-        "tight_faces": None if tight_faces is None else list(tight_faces),
+        "tight_faces": None,
         "slack": slack,
         "void_percent": void_percent,
         "margin": margin,
         "effort": effort,
-        "tight_for": _words(tight_for),
+        "tight_for": _words(tight_for, "tight_for"),
         "sdf_bytes": sdf_bytes,
         "sdf_error": sdf_error,
         "sdf_rel": sdf_rel,
         "sdf_kind": sdf_kind,
         "sdf_layout": sdf_layout,
         "sdf_margin": sdf_margin,
-        "frames": [os.fspath(frame) for frame in frames],
+        "frames": files(frames, "frames"),
         "closed": closed,
     }
+    for check, names in _CHECKS:
+        options |= {name: check(options[name], name, BuildError) for name in names}
+    if tight_faces is not None:
+        if None in tight_faces:
+            raise BuildError("tight_faces: whole numbers are wanted, not None")
+        options["tight_faces"] = [whole(most, "tight_faces", BuildError) for most in tight_faces]
     with Bar(progress) as tell:
         return Model(_meshsweep.build(given(mesh), options, tell))
 
 
-def _words(words: str | Iterable[str]) -> list[str]:
+def _number(given: Any, what: str, refused: Any) -> float | None:
+    return None if given is None else real(given, what, refused)
+
+
+# Options by what they are.
+_CHECKS: list[tuple[Any, list[str]]] = [
+    (whole, ["vertex_bits", "base_faces", "triboxes", "sdf_bytes"]),
+    (_number, ["tribox_error", "slack", "void_percent", "margin", "effort"]),
+    (_number, ["sdf_error", "sdf_rel", "sdf_margin"]),
+    (word, ["unit", "orient", "sdf_kind", "sdf_layout"]),
+    (yes_or_no, ["extrema", "closed"]),
+]
+
+
+def _words(words: str | Iterable[str], what: str) -> list[str]:
     """Words that commas separate."""
-    parts = words.split(",") if isinstance(words, str) else words
-    return [word.strip() for word in parts if word.strip()]
+    parts: Any = words.split(",") if isinstance(words, str) else words
+    try:
+        return [word for word in map(str.strip, parts) if word]
+    except TypeError:
+        text = f"{what}: words are wanted, as {'closest,segment'!r}, not {words!r}"
+        raise BuildError(text) from None

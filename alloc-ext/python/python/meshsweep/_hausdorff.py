@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _meshsweep
-from ._arrays import checked
+from ._arrays import checked, word, yes_or_no
 from ._mesh import Mesh, given
 from ._meshsweep import BuildError
 
@@ -76,7 +76,9 @@ def hausdorff(
         checked(abs, "abs"),
         None if at_most is None else checked(at_most, "at_most"),
     )
-    found = _meshsweep.hausdorff((_named(a, "a"), _named(b, "b")), one_sided, precision, unit)
+    meshes, symbol = (_named(a, "a"), _named(b, "b")), word(unit, "unit", BuildError)
+    is_one_sided = yes_or_no(one_sided, "one_sided")
+    found = _meshsweep.hausdorff(meshes, is_one_sided, precision, symbol)
     end_a, end_b = found["ends"] or (None, None)
     return Hausdorff(
         lower=found["lower"],

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,17 @@ from numpy.typing import ArrayLike, NDArray
 from ._arrays import numbers
 from ._meshsweep import BuildError
 
-Mesh = str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Any
+
+class Faces(Protocol):
+    """An object with vertices and triangles, as `trimesh.Trimesh`."""
+
+    @property
+    def vertices(self) -> ArrayLike: ...
+    @property
+    def faces(self) -> ArrayLike: ...
+
+
+Mesh = str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Faces
 Tell = Callable[[str, float], Any] | None
 Progress = bool | Tell
 
@@ -41,6 +51,16 @@ def given(mesh: Any) -> str | tuple[NDArray[np.float64], NDArray[np.uint32]]:
         raise BuildError("triangles: a vertex number is negative or beyond 32 bits")
     vertices = np.require(vertices, np.float64, ["C", "A"])
     return vertices, np.require(indices, np.uint32, ["C", "A"])
+
+
+def files(names: Iterable[str | os.PathLike[str]], what: str) -> list[str]:
+    """Names of files."""
+    if isinstance(names, (str, os.PathLike)):
+        raise BuildError(f"{what}: a list of files is wanted, as [{os.fspath(names)!r}]")
+    try:
+        return [os.fsdecode(name) for name in names]
+    except TypeError:
+        raise BuildError(f"{what}: a list of files is wanted, not {names!r}") from None
 
 
 class Bar:

@@ -1,8 +1,24 @@
 from collections.abc import Callable
-from typing import Any, TypeAlias, TypedDict
+from typing import Any, TypeAlias, TypedDict, final
 
 import numpy as np
 from numpy.typing import NDArray
+from typing_extensions import Self
+
+__all__ = [
+    "BlobError",
+    "BuildError",
+    "MeshsweepError",
+    "Model",
+    "NotServedError",
+    "QueryError",
+    "build",
+    "choose",
+    "hausdorff",
+    "trade",
+    "verify",
+    "words_of_for",
+]
 
 class MeshsweepError(ValueError): ...
 class BuildError(MeshsweepError): ...
@@ -22,6 +38,7 @@ _Tell: TypeAlias = Callable[[str, float], Any] | None
 
 class _Facts(TypedDict):
     serves: list[str]
+    elements: int | None
     is_curve: bool
     is_flat: bool
     bounds: list[list[float]] | None
@@ -78,8 +95,9 @@ class _Bounds(TypedDict):
     rounding: list[float]
     doubts: list[str]
 
+@final
 class Model:
-    def __init__(self, bytes: bytes) -> None: ...
+    def __new__(cls, bytes: bytes) -> Self: ...
     def bytes(self) -> bytes: ...
     def report(self) -> list[tuple[str, str]]: ...
     def facts(self) -> _Facts: ...

@@ -6,6 +6,7 @@ import os
 
 from ._arrays import whole
 from ._hulls import Hulls
+from ._meshsweep import BuildError
 from ._pairs import Pairs
 from ._points import Points
 from ._segments import Segments
@@ -15,7 +16,8 @@ from ._views import Views
 
 
 class Model(Points, Segments, Solids, Pairs, TriboxQuestions, Views, Hulls):
-    """An opened blob, which answers questions. Safe to share between threads, and to pickle."""
+    """An opened blob, which answers questions. Safe to share between threads, and to pickle, with
+    its report. Models of the same bytes are equal."""
 
     def cut(
         self,
@@ -32,8 +34,8 @@ class Model(Points, Segments, Solids, Pairs, TriboxQuestions, Views, Hulls):
         has no number stays as it is. Raises `BuildError` if there is nothing of the kind, or no
         such level.
         """
-        parts = whole(level, "level"), whole(triboxes, "triboxes"), whole(tight, "tight")
-        return Model(self._model.cut(*parts))
+        limits = {"level": level, "triboxes": triboxes, "tight": tight}
+        return Model(self._model.cut(*(whole(n, name, BuildError) for name, n in limits.items())))
 
 
 def load(file: str | os.PathLike[str]) -> Model:

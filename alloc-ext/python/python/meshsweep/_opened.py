@@ -30,12 +30,23 @@ class Opened:
             raise BlobError(f"bytes are wanted, not {type(blob).__name__}")
         self._model = blob if isinstance(blob, _meshsweep.Model) else _meshsweep.Model(bytes(blob))
         self._facts = self._model.facts()
+        self._notes = self._model.report()
 
     def __bytes__(self) -> bytes:
         return self._model.bytes()
 
-    def __reduce__(self) -> tuple[type[Opened], tuple[bytes]]:
-        return type(self), (bytes(self),)
+    def __reduce__(self) -> tuple[type[Opened], tuple[bytes], list[tuple[str, str]]]:
+        return type(self), (bytes(self),), self._notes
+
+    def __setstate__(self, notes: list[tuple[str, str]]) -> None:
+        self._notes = notes
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the bytes are the same."""
+        return bytes(self) == bytes(other) if isinstance(other, Opened) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(bytes(self))
 
     def __repr__(self) -> str:
         return f"<meshsweep.Model for {','.join(self.serves)}: {len(bytes(self))} bytes>"
@@ -48,7 +59,7 @@ class Opened:
     @property
     def report(self) -> list[Note]:
         """What the build repaired, moved and left out; empty of a model that was loaded."""
-        return [Note(*note) for note in self._model.report()]
+        return [Note(*note) for note in self._notes]
 
     @property
     def serves(self) -> list[str]:

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, framed, limits
+from ._arrays import checked, framed, limits, yes_or_no
 from ._arrays import poses as poses_of
 from ._meshsweep import QueryError
 from ._opened import Opened, other_of
-from ._records import Records, ask, ask_lists, parts
+from ._records import Lists, Records, ask, ask_lists
 from ._rounding import asked, least
 
 
@@ -30,7 +30,10 @@ class Pairs(Opened):
         """The distance of this surface from that of another model, at poses of the other.
 
         `poses`: shape (n, 4, 4) or (n, 3, 4), rigid, from the other's frame to this one's; one as
-        built if there are none. Both need "segment" among the words of `for_`.
+        built if there are none. Both need "segment" among the words of `for_`. Poses are rounded to
+        single precision, and the answer is about the rounded one: far from the origin, and far out
+        on a large model, that moves it by some 1e-7 of these lengths. Add that to distances to
+        keep, or give float32 to see no rounding.
 
         Fields: `lower` and `upper`; `points`, one of each surface in this frame; `triangles`;
         `ended`; `work`.
@@ -43,7 +46,8 @@ class Pairs(Opened):
     ) -> Records:
         """Whether both surfaces are at most `distance` apart, at poses of the other.
 
-        Fields: `verdict`; `triangles`, the witnesses of a `YES`, or -1; `ended`; `work`.
+        Fields: `verdict`; `triangles`, the witnesses of a `YES`, or -1; `ended`; `work`. Poses are
+        rounded, as those of `distance_to`; the distance is not.
         """
         second, matrices = other_of(other), poses_of(poses)
 
@@ -59,7 +63,8 @@ class Pairs(Opened):
         *,
         frame: ArrayLike | None = None,
     ) -> Records:
-        """Whether both surfaces meet, at poses of the other. Fields: those of `within_of`.
+        """Whether both surfaces meet, at poses of the other. Fields: those of `within_of`. Poses
+        are rounded, as those of `distance_to`.
 
         Where one has no "segment", and both have a hull hierarchy, the hierarchies answer: `NO` or
         undecided, without triangles, if one of them was cut.
@@ -73,8 +78,9 @@ class Pairs(Opened):
             return ask(self._model.overlap_at, _records.MEETS, rows, second)
         return ask(self._model.overlap, _records.MEETS, matrices, second)
 
-    def all_overlaps(self, other: Opened, poses: ArrayLike | None = None) -> list[Records]:
-        """All pairs of triangles that meet or may meet, at poses of the other: a list of n records.
+    def all_overlaps(self, other: Opened, poses: ArrayLike | None = None) -> Lists:
+        """All pairs of triangles that meet or may meet, at poses of the other: `Lists` of n
+        records. Poses are rounded, as those of `distance_to`.
 
         Fields: `triangles`, one of each model; `is_certain`: whether it is proved that they meet.
         Lists are complete, always: no other pair meets. Both need "segment"; without it hull
@@ -82,7 +88,7 @@ class Pairs(Opened):
         """
         second, question = other_of(other), self._model.all_overlaps
         begins, found, _ = ask_lists(question, _records.OVERLAP, poses_of(poses), second)
-        return parts(begins, found)
+        return Lists(begins, found)
 
     def penetration(
         self,
@@ -94,7 +100,7 @@ class Pairs(Opened):
         steps: int | None = None,
     ) -> Records:
         """How two solids lie to each other, and how deep they are in each other, at poses of the
-        other. Both need "closest,segment,winding", and closed meshes.
+        other, which are rounded. Both need "closest,segment,winding", and closed meshes.
 
         Fields: `relation` (a `Relation`); `lower` and `upper` of the penetration depth, which is
         the length of the shortest translation after which no point is inside both; `apart`, a
@@ -118,9 +124,9 @@ class Pairs(Opened):
     ) -> Records:
         """How far another model may move before it is within `keep` of this surface.
 
-        Poses as those of `distance_to`, one of each for a move. The way from one to the other is a
-        screw, on which the model stays rigid; with `straight` each point goes along a straight
-        line, and a model that turns shrinks on the way. Both need "segment".
+        Poses as those of `distance_to`, rounded too, one of each for a move. The way from one to
+        the other is a screw, on which the model stays rigid; with `straight` each point goes along
+        a straight line, and a model that turns shrinks on the way. Both need "segment".
 
         Fields: `verdict`: `NO` where it is proved that the surfaces are farther apart than `keep`
         during the whole move, else `UNDECIDED`; `clear_until`, the part of the move, 0 to 1, before
@@ -130,5 +136,6 @@ class Pairs(Opened):
         begins, ends = poses_of(from_poses), poses_of(to_poses)
         if len(begins) != len(ends):
             raise QueryError(f"{len(begins)} poses to begin at, {len(ends)} to end at")
-        how = other_of(other), straight, least(checked(keep, "keep"))
+        is_straight = yes_or_no(straight, "straight")
+        how = other_of(other), is_straight, least(checked(keep, "keep"))
         return ask(self._model.first_contact_of, _records.MOVED, np.hstack([begins, ends]), *how)

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, framed, limits, rows, whole
+from ._arrays import checked, distances, framed, limits, rows, whole, yes_or_no
 from ._meshsweep import QueryError
 from ._opened import Opened
-from ._records import Records, ask, ask_lists, parts
+from ._records import Lists, Records, Verdict, ask, ask_lists
 from ._rounding import asked, least, rounded, widened
 
 
@@ -42,10 +42,12 @@ class Points(Opened):
         """The distance of each point from the surface, and a point of the surface.
 
         Fields: `lower` and `upper`, which contain the distance to the input mesh; `point`, of the
-        surface and at most `upper` away from the rounded query; `triangle`, its number in the
-        input file, or -1; `ended`; `work`. Curves have `polyline`, `segment` and `safe_motion` in
-        place of `triangle`: of every point that is less than `safe_motion` away from the one given,
-        the segment is the closest one. 0 is no statement.
+        surface and at most `upper` away from the rounded query, but then rounded itself to single
+        precision, and of a model that was cut, of its hull; `triangle`, its number in the input
+        file, or -1; `ended`; `work`, which is less after a near point in the same 16384 rows: it
+        depends on the other rows, and nothing else does. Curves have `polyline`, `segment` and
+        `safe_motion` in place of `triangle`: of every point that is less than `safe_motion` away
+        from the one given, the segment is the closest one. 0 is no statement.
 
         A search ends once the interval is narrower than `rel` of the distance or than `abs`, or
         after so many `steps`: the interval is wider then, and holds.
@@ -59,18 +61,18 @@ class Points(Opened):
         With `frame` the distance is that of the mesh at a key frame or between two: one number for
         all points, or one for each. Needs "deform".
         """
-        how = limits(rel, abs, steps)
+        how, is_precise = limits(rel, abs, steps), yes_or_no(precise, "precise")
         if frame is not None:
-            if precise:
+            if is_precise:
                 raise QueryError("precise: it takes no frame")
             near, moved = self._points_at(points, frame)
             found = ask(self._model.closest_point_at, _records.CLOSEST, near, how)
             return widened(found, moved)
-        if precise and any(how[:2]):
+        if is_precise and any(how[:2]):
             raise QueryError("precise: it takes no rel and no abs, only steps")
         dtype = _records.CLOSEST_ON_CURVE if self._facts["is_curve"] else _records.CLOSEST
         near, moved = self._points(points)
-        found = ask(self._model.closest_point, dtype, near, how, precise)
+        found = ask(self._model.closest_point, dtype, near, how, is_precise)
         return widened(found, moved)
 
     def signed_distance(self, points: ArrayLike, *, steps: int | None = None) -> Records:
@@ -106,56 +108,60 @@ class Points(Opened):
     def within(
         self,
         points: ArrayLike,
-        distance: SupportsFloat,
+        distance: ArrayLike,
         *,
         steps: int | None = None,
         field_first: bool = False,
     ) -> Records:
-        """Whether the surface is at most `distance` from each point.
+        """Whether the surface is at most `distance` from each point: one number, or shape (n,).
 
         Fields: `verdict` (a `Verdict`: 0 only where it is proved that nothing is so near);
         `triangle`, the witness of a `YES`, or -1; of curves `polyline` and `segment`; `ended`;
-        `work`. Deep inside a part nothing is near.
+        `work`. Deep inside a part nothing is near. If single precision does not hold the distances
+        or the points, each row is asked twice, and `work` counts both.
 
         With `field_first` the distance field answers where it decides, and the box tree elsewhere:
         faster, but the field names no triangle with a `YES`. Needs "closest,sdf".
         """
         near, moved = self._points(points)
         dtype = _records.WITHIN_OF_CURVE if self._facts["is_curve"] else _records.WITHIN
-        how = whole(steps, "steps"), field_first
+        how = whole(steps, "steps"), yes_or_no(field_first, "field_first")
 
         def question(limits: NDArray[np.float32]) -> Records:
             limits = np.broadcast_to(limits[:, None], (len(near), 1))
             return ask(self._model.within, dtype, np.hstack([near, limits]), *how)
 
         slack = np.zeros(1) if moved is None else moved.astype(np.float64)
-        return asked(question, checked(distance), slack)
+        return asked(question, distances(distance, len(near)), slack)
 
     def nearest(self, points: ArrayLike, count: int, *, frame: ArrayLike | None = None) -> Records:
         """The `count` triangles nearest to each point, nearest first: shape (n, count).
 
-        Fields: `lower`, `upper`, `point`, `triangle`; of curves `polyline` and `segment`. A mesh
-        with fewer triangles has fewer. With `frame` as for `closest_point`.
+        Fields: `lower`, `upper`, `point`, `triangle`, as those of `closest_point`; of curves
+        `polyline` and `segment`. A mesh with fewer triangles has fewer. With `frame` as for
+        `closest_point`. Memory that is too short for all answers raises `MemoryError`.
         """
-        if not whole(count, "count"):
+        most = whole(count, "count")
+        if not most:
             raise QueryError("count: at least 1 is wanted")
         if frame is None:
             near, moved = self._points(points)
             dtype = _records.NEAREST_ON_CURVE if self._facts["is_curve"] else _records.NEAREST
-            found = ask(self._model.nearest, dtype, near, count)
+            found = ask(self._model.nearest, dtype, near, most)
         else:
             near, moved = self._points_at(points, frame)
-            found = ask(self._model.nearest_at, _records.NEAREST, near, count)
-        each = found.reshape(len(near), -1 if len(near) else count)
+            found = ask(self._model.nearest_at, _records.NEAREST, near, most)
+        width = -1 if len(near) else min(most, self._facts["elements"] or most)
+        each = found.reshape(len(near), width)
         return widened(cast(Records, each), moved)
 
-    def all_within(self, points: ArrayLike, distance: SupportsFloat) -> list[Records]:
-        """All triangles that may be at most `distance` from each point: a list of n records.
+    def all_within(self, points: ArrayLike, distance: SupportsFloat) -> Lists:
+        """All triangles that may be at most `distance` from each point: `Lists` of n records.
 
-        Fields: `lower`, `upper`, `point`, `triangle` (of curves `polyline` and `segment`), and
-        `is_certain`: false of triangles that are perhaps a little farther. Lists are complete,
-        always: no other triangle is so near. Points in double precision that single precision does
-        not hold are refused.
+        Fields: `lower`, `upper`, `point`, `triangle`, as those of `closest_point` (of curves
+        `polyline` and `segment`), and `is_certain`: false of triangles that are perhaps a little
+        farther. Lists are complete, always: no other triangle is so near. Points in double
+        precision that single precision does not hold are refused.
         """
         near, moved = self._points(points)
         if moved is not None:
@@ -164,16 +170,28 @@ class Points(Opened):
         dtype = _records.ALL_WITHIN_OF_CURVE if self._facts["is_curve"] else _records.ALL_WITHIN
         begins, found, _ = ask_lists(self._model.all_within, dtype, near, least(limit))
         found.is_certain[:] = found.upper.astype(np.float64) <= limit
-        return parts(begins, found)
+        return Lists(begins, found)
 
     def winding_number(self, points: ArrayLike) -> Records:
         """How often the mesh encloses each point. Needs "winding" among the words of `for_`.
 
-        Fields: `lower` and `upper`, which contain the winding number of the input's triangles;
-        `side`; `ended`; `work`. The points are rounded to single precision.
+        Fields: `lower` and `upper`, which contain the winding number of the input's triangles about
+        the point as it is rounded to single precision; `side`; `ended`; `work`.
+
+        A point that was moved has a side, and the interval holds for the point as given, where the
+        mesh is closed and farther away than the rounding: that needs "closest" too. Elsewhere its
+        side is undecided. Give float32 to see no rounding.
         """
-        near, _ = rounded(rows(points, "points"))
-        return ask(self._model.winding_number, _records.WINDING, near)
+        near, moved = rounded(rows(points, "points"))
+        found = ask(self._model.winding_number, _records.WINDING, near)
+        if moved is not None:
+            is_open = moved > 0
+            if self.is_closed and "closest" in self.serves:
+                rows_of = np.column_stack([near, moved])
+                met = ask(self._model.within, _records.WITHIN, rows_of, None, False)
+                is_open &= met.verdict != Verdict.NO
+            found.side[is_open] = 0
+        return found
 
     def field_distance(self, points: ArrayLike) -> Records:
         """Bounds of the distance by the distance field: the bits that a Cortex-M computes.

@@ -1,59 +1,62 @@
 """Answers as NumPy records. `src/*.rs` writes them in this order."""
 
-import itertools
-from collections.abc import Callable
+import functools
+from collections.abc import Callable, Sequence
 from enum import IntEnum
-from typing import Any, cast
+from typing import Any, SupportsIndex, cast, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 Records = np.recarray[Any, Any]
 
+# Fields are where a structure in C has them, so that loops over one find it aligned. Bytes between
+# them are 0 in answers, and any in copies that NumPy makes.
+_record = functools.partial(np.dtype, align=True)
 _INTERVAL = [("lower", "f4"), ("upper", "f4")]
 _END = [("ended", "u1"), ("work", "u4")]
 _POINT = ("point", "f4", 3)
 _SEGMENT = [("polyline", "i8"), ("segment", "i8")]
 
-CLOSEST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), *_END])
-CLOSEST_ON_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END])
-SIGNED = np.dtype([*_INTERVAL, ("side", "i1"), _POINT, ("triangle", "i8"), *_END])
-SIGNED_OF_FENCE = np.dtype(
+CLOSEST = _record([*_INTERVAL, _POINT, ("triangle", "i8"), *_END])
+CLOSEST_ON_CURVE = _record([*_INTERVAL, _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END])
+SIGNED = _record([*_INTERVAL, ("side", "i1"), _POINT, ("triangle", "i8"), *_END])
+SIGNED_OF_FENCE = _record(
     [*_INTERVAL, ("side", "i1"), _POINT, *_SEGMENT, ("safe_motion", "f4"), *_END]
 )
-WITHIN_OF_CURVE = np.dtype([("verdict", "u1"), *_SEGMENT, *_END])
-NEAREST_ON_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT])
-ALL_WITHIN_OF_CURVE = np.dtype([*_INTERVAL, _POINT, *_SEGMENT, ("is_certain", "?")])
-WITHIN = np.dtype([("verdict", "u1"), ("triangle", "i8"), *_END])
-NEAREST = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8")])
-ALL_WITHIN = np.dtype([*_INTERVAL, _POINT, ("triangle", "i8"), ("is_certain", "?")])
-WINDING = np.dtype([*_INTERVAL, ("side", "i1"), *_END])
-FIRST_HIT = np.dtype(
+WITHIN_OF_CURVE = _record([("verdict", "u1"), *_SEGMENT, *_END])
+NEAREST_ON_CURVE = _record([*_INTERVAL, _POINT, *_SEGMENT])
+ALL_WITHIN_OF_CURVE = _record([*_INTERVAL, _POINT, *_SEGMENT, ("is_certain", "?")])
+WITHIN = _record([("verdict", "u1"), ("triangle", "i8"), *_END])
+NEAREST = _record([*_INTERVAL, _POINT, ("triangle", "i8")])
+ALL_WITHIN = _record([*_INTERVAL, _POINT, ("triangle", "i8"), ("is_certain", "?")])
+WINDING = _record([*_INTERVAL, ("side", "i1"), *_END])
+FIRST_HIT = _record(
     [("verdict", "u1"), ("t_lower", "f4"), ("t_upper", "f4"), _POINT, ("triangle", "i8"), *_END]
 )
-DECIDED = np.dtype([("verdict", "u1"), *_END])
-ALL_HITS = np.dtype([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")])
-BOUNDS = np.dtype([*_INTERVAL, *_END])
-SIGNED_BOUNDS = np.dtype([*_INTERVAL, ("side", "i1"), *_END])
-FIELD = np.dtype([*_INTERVAL, ("side", "i1"), ("gradient", "f4", 3)])
-SOLID = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangle", "i8"), *_END])
-PAIR = np.dtype([*_INTERVAL, ("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END])
-MOVED = np.dtype(
+DECIDED = _record([("verdict", "u1"), *_END])
+ALL_HITS = _record([("verdict", "u1"), ("t", "f4"), _POINT, ("triangle", "i8")])
+BOUNDS = _record([*_INTERVAL, *_END])
+SIGNED_BOUNDS = _record([*_INTERVAL, ("side", "i1"), *_END])
+FIELD = _record([*_INTERVAL, ("side", "i1"), ("gradient", "f4", 3)])
+SOLID = _record([*_INTERVAL, ("points", "f4", (2, 3)), ("triangle", "i8"), *_END])
+PAIR = _record([*_INTERVAL, ("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END])
+MOVED = _record(
     [
         *[("verdict", "u1"), ("clear_until", "f4")],
         *[("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END],
     ]
 )
-MEETS = np.dtype([("verdict", "u1"), ("triangles", "i8", 2), *_END])
-OVERLAP = np.dtype([("triangles", "i8", 2), ("is_certain", "?")])
-PENETRATION = np.dtype(
+MEETS = _record([("verdict", "u1"), ("triangles", "i8", 2), *_END])
+OVERLAP = _record([("triangles", "i8", 2), ("is_certain", "?")])
+PENETRATION = _record(
     [("relation", "u1"), *_INTERVAL, ("apart", "f4", 3), ("deepest", "f4", 3), *_END]
 )
-TRIBOX = np.dtype([("lower", "f4"), ("tribox", "i8"), *_END])
-TRIBOX_HIT = np.dtype([("verdict", "u1"), ("t_lower", "f4"), ("tribox", "i8"), *_END])
-TRIBOX_PAIR = np.dtype([("verdict", "u1"), ("triboxes", "i8", 2), *_END])
-CANDIDATE = np.dtype([("triboxes", "i8", 2)])
-FACING = np.dtype([("triangle", "i8")])
+TRIBOX = _record([("lower", "f4"), ("tribox", "i8"), *_END])
+TRIBOX_HIT = _record([("verdict", "u1"), ("t_lower", "f4"), ("tribox", "i8"), *_END])
+TRIBOX_PAIR = _record([("verdict", "u1"), ("triboxes", "i8", 2), *_END])
+CANDIDATE = _record([("triboxes", "i8", 2)])
+FACING = _record([("triangle", "i8")])
 
 DIRECTIONS = np.array(
     [
@@ -139,6 +142,33 @@ def ask_lists(
     return begins, raw.view(dtype).view(np.recarray), is_complete
 
 
-def parts(begins: NDArray[np.uint64], found: Records) -> list[Records]:
-    """The records of each row."""
-    return [cast(Records, found[begin:end]) for begin, end in itertools.pairwise(begins)]
+class Lists(Sequence[Records]):
+    """Answers to n rows that have any number of records each: `lists[3]` has those of row 3.
+
+    All records at once spare the time of making n arrays: those of row 3 are
+    `lists.records[lists.begins[3]:lists.begins[4]]`, and `np.diff(lists.begins)` counts them.
+    """
+
+    begins: NDArray[np.uint64]
+    """Shape (n + 1,): where the records of each row begin, and the number of all."""
+    records: Records
+    """Those of all rows, one row behind the other."""
+
+    def __init__(self, begins: NDArray[np.uint64], records: Records) -> None:
+        self.begins, self.records = begins, records
+
+    def __len__(self) -> int:
+        return len(self.begins) - 1
+
+    @overload
+    def __getitem__(self, row: SupportsIndex) -> Records: ...
+    @overload
+    def __getitem__(self, row: slice) -> list[Records]: ...
+    def __getitem__(self, row: SupportsIndex | slice) -> Records | list[Records]:
+        if isinstance(row, slice):
+            return [self[one] for one in range(*row.indices(len(self)))]
+        at = range(len(self))[row]
+        return cast(Records, self.records[self.begins[at] : self.begins[at + 1]])
+
+    def __repr__(self) -> str:
+        return f"<meshsweep.Lists of {len(self)} rows: {len(self.records)} records>"

@@ -6,9 +6,10 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ._arrays import single
+from ._arrays import MOST, pairs, rows, single
+from ._meshsweep import QueryError
 from ._records import Ended, Records, Side, Verdict
 
 
@@ -31,6 +32,14 @@ def rounded(rows: NDArray[Any]) -> tuple[NDArray[np.float32], NDArray[np.float32
         return near, None
     moved = np.nextafter(np.linalg.norm(off, axis=-1).astype(np.float32), np.float32(np.inf))
     return near, np.where(np.any(off, axis=-1), moved, np.float32(0))
+
+
+def moved_pairs(a: ArrayLike, b: ArrayLike) -> NDArray[np.float32]:
+    """Rows of eight: those of `pairs`, and bounds of how far rounding moved each of both points."""
+    both = pairs(a, b)
+    bounds = [rounded(rows(a, "starts"))[1], rounded(rows(b, "ends"))[1]]
+    columns = [np.zeros(1, np.float32) if moved is None else moved for moved in bounds]
+    return np.column_stack([both, *[np.broadcast_to(moved, len(both)) for moved in columns]])
 
 
 def widened(
@@ -62,20 +71,31 @@ def widened(
 
 
 def asked(
-    ask: Callable[[NDArray[np.float32]], Records], distance: float, slack: NDArray[np.float64]
+    ask: Callable[[NDArray[np.float32]], Records],
+    distance: float | NDArray[np.float64],
+    slack: NDArray[np.float64],
 ) -> Records:
-    """Verdicts about `distance`, which single precision may not hold, with so much slack.
+    """Verdicts about a distance, or one of each row, which single precision may not hold, with so
+    much slack.
 
     Farther than the distance and the slack is farther; nearer than the distance less the slack is
-    nearer; the rest is undecided.
+    nearer; the rest is undecided. The work is that of both questions.
     """
-    if float(np.float32(distance)) == distance and not np.any(slack):
-        return ask(np.array([distance], np.float32))
+    distance = np.atleast_1d(distance)
+    limits = single(distance)
+    if np.all(limits == distance) and not np.any(slack):
+        return ask(limits)
+    if np.any(single(distance + slack) >= MOST):
+        raise QueryError("distance: with the rounding it is beyond single precision")
     found = ask(up(distance + slack))
     near = ask(down(np.maximum(distance - slack, 0.0)))
+    work = found.work.astype(np.uint64) + near.work
+    found.work[:] = near.work[:] = np.minimum(work, np.uint64(2**32 - 1))
     is_near = (near.verdict == Verdict.YES) & (distance >= slack)
     is_open = (found.verdict == Verdict.YES) & ~is_near
-    found[is_near] = near[is_near]
+    # By fields: a copy of whole records has any bytes between them.
+    for name in found.dtype.names or ():
+        found[name][is_near] = near[name][is_near]
     found.verdict[is_open] = Verdict.UNDECIDED
     found.ended[is_open] = Ended.RESOLUTION
     for witness in {"triangle", "triangles", "polyline", "segment"} & {*(found.dtype.names or ())}:

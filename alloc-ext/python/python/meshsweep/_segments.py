@@ -13,14 +13,15 @@ from ._arrays import facing as facing_of
 from ._arrays import framed, pairs, whole
 from ._meshsweep import QueryError
 from ._opened import Opened
-from ._records import Facing, Records, ask, ask_lists, parts
+from ._records import Facing, Lists, Records, ask, ask_lists
+from ._rounding import moved_pairs
 
 
 class AllHits(NamedTuple):
     """The triangles that each of n segments or rays meets."""
 
-    hits: list[Records]
-    """A list of n records."""
+    hits: Lists
+    """Records of each, first ones first."""
     is_complete: NDArray[np.bool_]
     """Shape (n,): whether it is proved that no other triangle is hit."""
 
@@ -44,6 +45,12 @@ class Segments(Opened):
         common point, 0 at the start and 1 at the end, infinite if there is none; `point`, NaN
         without a hit; `triangle`, or -1; `ended`; `work`.
 
+        Segments are rounded to single precision. A `NO` is proved for the segment as it was given:
+        where only the rounded one is clear, by less than the rounding, it is `UNDECIDED`. There
+        all facings count, so with `facing` a segment that was moved is `UNDECIDED` where it passes
+        the other side of a triangle. All else, a `YES` too, is about the rounded segment: give
+        float32 to see no rounding.
+
         Needs "segment"; without it the hull hierarchy answers, with both facings alone, and names
         no triangle if it was cut.
 
@@ -58,10 +65,10 @@ class Segments(Opened):
     def _segments_at(
         self, starts: ArrayLike, ends: ArrayLike, facing: Facing | int, frame: ArrayLike
     ) -> NDArray[np.float32]:
-        """Rows of a segment and its frame."""
+        """Rows of a segment, how far rounding moved its ends, and its frame."""
         if facing_of(facing) != Facing.BOTH:
             raise QueryError("facing: it takes no frame")
-        return np.hstack(framed(pairs(starts, ends), "segments", frame))
+        return np.hstack(framed(moved_pairs(starts, ends), "segments", frame))
 
     def first_hit_of_ray(
         self,
@@ -71,14 +78,17 @@ class Segments(Opened):
         facing: Facing | int = Facing.BOTH,
         steps: int | None = None,
     ) -> Records:
-        """The same of rays without an end. The parameter counts lengths of the direction."""
+        """The same of rays without an end. The parameter counts lengths of the direction.
+
+        Origins and directions are rounded. A `NO` is proved for the ray as it was given.
+        """
         return self._first_hit(origins, directions, True, facing, steps)
 
     def _first_hit(
         self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing | int, steps: int | None
     ) -> Records:
         how = is_ray, facing_of(facing), whole(steps, "steps")
-        return ask(self._model.first_hit, _records.FIRST_HIT, pairs(a, b), *how)
+        return ask(self._model.first_hit, _records.FIRST_HIT, moved_pairs(a, b), *how)
 
     def all_hits(
         self,
@@ -88,12 +98,15 @@ class Segments(Opened):
         facing: Facing | int = Facing.BOTH,
         frame: ArrayLike | None = None,
     ) -> AllHits:
-        """All triangles that each segment meets, first ones first: lists of n records.
+        """All triangles that each segment meets, first ones first.
 
         Fields: `verdict`, `YES` or `UNDECIDED`; `t`; `point`; `triangle`. No other triangle is hit
         where `is_complete`. Elsewhere the segment passes so near to a triangle that what is stored
         does not tell whether it hits: such a triangle may be missing. So an empty list is clear
         only where `is_complete`; `first_hit` tells by its verdict.
+
+        Segments are rounded to single precision, and the lists, with what is said of them, are
+        about the rounded ones. Give float32 to see no rounding.
 
         With `frame`, and without "segment", as for `first_hit`.
         """
@@ -105,7 +118,8 @@ class Segments(Opened):
     def all_hits_of_ray(
         self, origins: ArrayLike, directions: ArrayLike, *, facing: Facing | int = Facing.BOTH
     ) -> AllHits:
-        """The same of rays without an end. The parameter counts lengths of the direction."""
+        """The same of rays without an end, which are rounded. The parameter counts lengths of the
+        direction."""
         return self._all_hits(origins, directions, True, facing)
 
     def _all_hits(self, a: ArrayLike, b: ArrayLike, is_ray: bool, facing: Facing | int) -> AllHits:
@@ -114,4 +128,4 @@ class Segments(Opened):
 
 def _listed(question: Callable[..., Any], rows: NDArray[np.float32], *how: Any) -> AllHits:
     begins, found, is_complete = ask_lists(question, _records.ALL_HITS, rows, *how)
-    return AllHits(parts(begins, found), is_complete)
+    return AllHits(Lists(begins, found), is_complete)

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, limits, pairs, rows, single, solids, whole
+from ._arrays import checked, distances, limits, rows, solids, whole, yes_or_no
 from ._meshsweep import QueryError
 from ._opened import Opened
 from ._records import Records, ask
-from ._rounding import asked, rounded, widened
+from ._rounding import asked, moved_pairs, rounded, up, widened
 
 
 def _placed(corners: ArrayLike, what: str) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
@@ -58,29 +58,31 @@ class Solids(Opened):
     def solid_within(
         self,
         corners: ArrayLike,
-        distance: SupportsFloat,
+        distance: ArrayLike,
         *,
         radius: SupportsFloat = 0.0,
         steps: int | None = None,
         field_first: bool = False,
     ) -> Records:
-        """Whether the surface is at most `distance` from each solid; 0 asks whether they meet.
+        """Whether the surface is at most `distance` from each solid: one number, or shape (n,); 0
+        asks whether they meet.
 
         `corners` as those of `solid_distance`. Fields: `verdict`; `triangle`, the witness of a
-        `YES`, or -1; `ended`; `work`. A flat solid without radius that passes through the surface
-        is `UNDECIDED`. With `field_first` the distance field decides about balls and capsules where
-        it can; a `YES` of the field has no witness. Needs "sdf" too.
+        `YES`, or -1; `ended`; `work`, as that of `within`. A flat solid without radius that passes
+        through the surface is `UNDECIDED`. With `field_first` the distance field decides about
+        balls and capsules where it can; a `YES` of the field has no witness. Needs "sdf" too.
         """
         near, moved = _placed(corners, "corners")
         size = checked(radius, "radius")
-        how = float(np.float32(size)), whole(steps, "steps"), field_first
+        is_first = yes_or_no(field_first, "field_first")
+        how = float(np.float32(size)), whole(steps, "steps"), is_first
 
         def question(limits: NDArray[np.float32]) -> Records:
             limits = np.broadcast_to(limits[:, None], (len(near), 1))
             question = self._model.solid_within
             return ask(question, _records.WITHIN, np.hstack([near, limits]), *how)
 
-        return asked(question, checked(distance), _slack(moved, size))
+        return asked(question, distances(distance, len(near)), _slack(moved, size))
 
     def solid_first_contact(
         self,
@@ -105,7 +107,8 @@ class Solids(Opened):
             raise QueryError(f"solids and their corners at the start, at the end: {shapes}")
         moved = np.maximum(moved, moved_there)
         moves = np.hstack([begins, ends, moved[:, None]])
-        how = checked(radius, "radius"), whole(steps, "steps"), field_first
+        is_first = yes_or_no(field_first, "field_first")
+        how = checked(radius, "radius"), whole(steps, "steps"), is_first
         return ask(self._model.solid_first_contact, _records.FIRST_HIT, moves, *how)
 
     def first_contact(
@@ -127,14 +130,19 @@ class Solids(Opened):
         Fields: those of `first_hit`. `NO` where it is proved that no point of the tool touches the
         mesh at any instant, `YES` where it certainly meets the mesh by `t_upper`; before `t_lower`
         it is clear. `point` is of the triangle that may stop it. Only the surface counts. Starts,
-        ends and corners are rounded to single precision. The rounding of their sums, and of the
-        radius, is in the answer: a tool without radius may stay `UNDECIDED` where it hits.
+        ends and corners are rounded to single precision. Their rounding, that of their sums, and
+        of the radius, is in the answer: a tool without radius may stay `UNDECIDED` where it hits.
         """
-        corners = single(rows(tool, "tool"))
+        corners, moved = rounded(rows(tool, "tool"))
         if not 1 <= len(corners) <= 32:
             raise QueryError(f"tool: 1 to 32 corners are wanted, not {len(corners)}")
         how = corners, checked(radius, "radius"), whole(steps, "steps")
-        return ask(self._model.first_contact, _records.FIRST_HIT, pairs(starts, ends), *how)
+        ways = moved_pairs(starts, ends)
+        slack = ways[:, 6:].max(axis=1).astype(np.float64)
+        if moved is not None:
+            slack += moved.max()
+        ways = np.column_stack([ways[:, :6], np.where(slack > 0, up(slack), slack)])
+        return ask(self._model.first_contact, _records.FIRST_HIT, ways.astype(np.float32), *how)
 
 
 def _slack(moved: NDArray[np.float32], radius: float) -> NDArray[np.float64]:

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _meshsweep
-from ._arrays import checked, numbers, single, whole
+from ._arrays import checked, numbers, single, whole, word, yes_or_no
 from ._mesh import Bar, Mesh, Progress, Tell, given
-from ._meshsweep import QueryError
+from ._meshsweep import BuildError
 from ._model import Model
 
 
@@ -99,7 +99,8 @@ def trade(
 
     Cost: a build for each structure, and each query against all triangles in double precision.
     `progress` is called as that of `build`, from another thread. Its exception, and Ctrl-C, end the
-    call; threads that measure may work on for a while.
+    call; threads that measure may work on for a while. Raises `BuildError` if the mesh or an option
+    is refused.
     """
     with Bar(progress) as tell:
         found = _meshsweep.trade(_wanted(mesh, for_, at, count, unit, closed, tell))
@@ -135,20 +136,20 @@ def choose(
     meets the limits.
     """
     device: _meshsweep._Device = {
-        "flash": whole(flash, "flash"),
-        "ram": whole(ram, "ram"),
-        "error": None if error is None else checked(error, "error"),
-        "rate": None if rate is None else checked(rate, "rate"),
+        "flash": whole(flash, "flash", BuildError),
+        "ram": whole(ram, "ram", BuildError),
+        "error": None if error is None else checked(error, "error", BuildError),
+        "rate": None if rate is None else checked(rate, "rate", BuildError),
         "cpu": None,
     }
     given_limits = [limit for limit in device.values() if limit is not None]
     if not given_limits or 0 in given_limits:
-        raise QueryError("choose: one of flash, ram, error and rate is wanted, each above 0")
+        raise BuildError("choose: one of flash, ram, error and rate is wanted, each above 0")
     if cpu is not None:
         name, clock = _processor(cpu)
         device["cpu"] = name, clock
     elif rate is not None:
-        raise QueryError('rate: it takes a processor, as cpu=("m4f", 168e6)')
+        raise BuildError('rate: it takes a processor, as cpu=("m4f", 168e6)')
     with Bar(progress) as tell:
         wanted = _wanted(mesh, for_, at, count, unit, closed, tell)
         model, found = _meshsweep.choose(wanted, device)
@@ -159,11 +160,11 @@ def choose(
 def _processor(cpu: tuple[str, SupportsFloat]) -> tuple[str, float]:
     try:
         name, clock = cpu
-    except ValueError:
+    except (TypeError, ValueError):
         name, clock = "", 0
-    hertz = checked(clock, "cpu")
+    hertz = checked(clock, "cpu", BuildError)
     if not isinstance(name, str) or not hertz:
-        raise QueryError(f'cpu: a name and a clock in Hz are wanted, as ("m4f", 168e6), not {cpu}')
+        raise BuildError(f'cpu: a name and a clock in Hz are wanted, as ("m4f", 168e6), not {cpu}')
     return name, hertz
 
 
@@ -181,22 +182,23 @@ def _wanted(
     if isinstance(at, str):
         places = at
     else:
-        asked = numbers(at, "at")
+        asked = numbers(at, "at", BuildError)
         shape, wanted = ((2, 3), "(n, 2, 3)") if for_ == "segment" else ((3,), "(n, 3)")
         if asked.shape[1:] != shape:
-            raise QueryError(f"at: shape {wanted} is wanted, not {asked.shape}")
+            raise BuildError(f"at: shape {wanted} is wanted, not {asked.shape}")
         if not np.all(np.isfinite(single(asked))):
-            raise QueryError("at: a number is not finite, or beyond single precision")
+            raise BuildError("at: a number is not finite, or beyond single precision")
         places = single(asked).reshape(-1, 3).tolist()
-    if count < 1:
-        raise QueryError("count: at least 1 is wanted")
+    most = whole(count, "count", BuildError)
+    if not most:
+        raise BuildError("count: at least 1 is wanted")
     return {
         "mesh": given(mesh),
-        "for_": for_,
+        "for_": word(for_, "for_", BuildError) or str(for_),
         "at": places,
-        "count": count,
-        "unit": unit,
-        "closed": closed,
+        "count": most,
+        "unit": word(unit, "unit", BuildError),
+        "closed": yes_or_no(closed, "closed", BuildError),
         "progress": tell,
     }
 

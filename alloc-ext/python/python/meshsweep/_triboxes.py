@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _records
-from ._arrays import checked, pairs, rows, whole
+from ._arrays import checked, rows, whole
 from ._arrays import poses as poses_of
 from ._meshsweep import QueryError
 from ._opened import Opened, other_of
-from ._records import Records, ask, ask_lists, parts
-from ._rounding import least, rounded, widened
+from ._records import Lists, Records, ask, ask_lists
+from ._rounding import least, moved_pairs, rounded, widened
 
 
 class Triboxes(NamedTuple):
@@ -50,8 +50,8 @@ class TriboxQuestions(Opened):
 
     def triboxes(self, count: int | None = None) -> Triboxes:
         """The geometry of at most `count` stored triboxes, or of all. Needs "triboxes"."""
-        if count is not None and not 1 <= count < 2**32:
-            raise QueryError(f"count: {count} is none from 1 to 2^32 - 1")
+        if whole(count, "count") == 0:
+            raise QueryError("count: at least 1 is wanted")
         found = self._model.triboxes(count)
         return Triboxes(
             found["nodes"],
@@ -83,9 +83,13 @@ class TriboxQuestions(Opened):
         Fields: `verdict`: `NO` where it is proved that the segment is clear, else `UNDECIDED`;
         `t_lower`, the parameter before which it is clear, 0 at the start and 1 at the end, infinite
         if it is clear; `tribox`, the node that it may enter there, or -1; `ended`; `work`.
+
+        Segments are rounded to single precision. A `NO` is proved for the segment as it was given:
+        of one that was moved, by up to 64 lower bounds of distances along it, which cost ten times
+        as much. `t_lower` of others is that of the rounded segment.
         """
         question, dtype = self._model.tribox_hit, _records.TRIBOX_HIT
-        return ask(question, dtype, pairs(starts, ends), whole(steps, "steps"))
+        return ask(question, dtype, moved_pairs(starts, ends), whole(steps, "steps"))
 
     def tribox_within_of(
         self, other: Opened, distance: SupportsFloat, poses: ArrayLike | None = None
@@ -95,7 +99,8 @@ class TriboxQuestions(Opened):
 
         Fields: `verdict`: `NO` where it is proved that all points of both are farther, insides of
         solid triboxes too; else `UNDECIDED`, never `YES`; `triboxes`, a node of each that may be
-        nearer, or -1; `ended`; `work`.
+        nearer, or -1; `ended`; `work`. Poses are rounded to single precision, and the answer is
+        about the rounded one.
         """
         how = other_of(other), least(checked(distance))
         return ask(self._model.tribox_separation, _records.TRIBOX_PAIR, poses_of(poses), *how)
@@ -105,12 +110,13 @@ class TriboxQuestions(Opened):
         touch are not proved to be apart."""
         return self.tribox_within_of(other, 0.0, poses)
 
-    def tribox_candidates(self, other: Opened, poses: ArrayLike | None = None) -> list[Records]:
-        """All pairs of triboxes that may meet, at poses of the other: a list of n records.
+    def tribox_candidates(self, other: Opened, poses: ArrayLike | None = None) -> Lists:
+        """All pairs of triboxes that may meet, at poses of the other: `Lists` of n records.
 
         Field: `triboxes`, a node of each model, as `Triboxes.node` names them. An empty list proves
-        that the models are apart, insides of solid triboxes too. Both need "triboxes".
+        that the models are apart, insides of solid triboxes too. Both need "triboxes". Poses are
+        rounded, as those of `tribox_within_of`.
         """
         second, question = other_of(other), self._model.tribox_candidates
         begins, found, _ = ask_lists(question, _records.CANDIDATE, poses_of(poses), second)
-        return parts(begins, found)
+        return Lists(begins, found)

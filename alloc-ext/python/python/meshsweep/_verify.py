@@ -7,8 +7,9 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from . import _meshsweep
-from ._mesh import Mesh, given
-from ._meshsweep import QueryError
+from ._arrays import word
+from ._mesh import Mesh, files, given
+from ._meshsweep import BuildError, QueryError
 from ._model import Model
 
 
@@ -55,11 +56,11 @@ def verify(
     """
     if not isinstance(model, Model):
         raise QueryError(f"a Model is wanted, not {type(model).__name__}")
-    files = [os.fspath(frame) for frame in frames]
+    keys, symbol = files(frames, "frames"), word(unit, "unit", BuildError)
     found = [
         Finding(structure, outcome, text, dict(counts))
         for structure, outcome, text, counts in _meshsweep.verify(
-            model._model, given(mesh), unit, files
+            model._model, given(mesh), symbol, keys
         )
     ]
     proved = [finding for finding in found if finding.outcome == "proved"]

@@ -1,0 +1,123 @@
+//! What is proved about rounded segments and rays, as it is of those that the caller gave.
+
+use meshsweep_core::{Ended, FirstHit, Interval, QueryError, Work};
+
+/// Balls that are laid along a segment at most.
+const MOST_BALLS: usize = 64;
+
+/// How far rounding moved a point of a row's segment at most. Rows have both points, and how far
+/// each was moved.
+pub fn moved(row: &[f32]) -> f64 {
+    row.iter().skip(6).take(2).fold(0.0, |most, &off| most.max(off.into()))
+}
+
+/// A segment, or the part of a ray before it is behind the model.
+pub struct Way {
+    pub ends: [[f32; 3]; 2],
+    /// No point is farther than this from where the caller wants it.
+    pub moved: f64,
+    /// The parameter at the end.
+    until: f64,
+    is_ray: bool,
+}
+
+impl Way {
+    pub fn of_segment(ends: [[f32; 3]; 2], moved: f64) -> Self {
+        Self { ends, moved, until: 1.0, is_ray: false }
+    }
+
+    /// Of a ray whose origin and direction were moved by so much. The model is no farther than
+    /// `error` from its box. If the direction may be any, or the end is too far away, points may be
+    /// anywhere.
+    pub fn of_ray(
+        [a, way]: [[f32; 3]; 2],
+        [off, off_way]: [f64; 2],
+        (bounds, error): ([[f32; 3]; 2], f32),
+    ) -> Self {
+        let origin = a;
+        let ([a, way], [low, high]) = ([a, way].map(wide), bounds.map(wide));
+        let radius = 0.5 * norm(minus(high, low)) + f64::from(error);
+        let centre = core::array::from_fn(|k| 0.5 * (low[k] + high[k]));
+        let pace = norm(way) - off_way;
+        // The part of a billion more is for the rounding of these sums.
+        let until = (radius + norm(minus(centre, a)) + off) / pace * (1.0 + 1e-9);
+        let end = along(a, way, until);
+        let rounded = end.map(|x| x as f32);
+        let rounding = norm(minus(end, wide(rounded))) + 1e-15 * (norm(a) + norm(end));
+        let moved = off + until * off_way + rounding;
+        let is_known = pace > 0.0 && rounded.iter().all(|x| x.is_finite());
+        match is_known {
+            true => Self { ends: [origin, rounded], moved, until, is_ray: true },
+            false => Self { ends: [origin; 2], moved: f64::INFINITY, until: 0.0, is_ray: true },
+        }
+    }
+
+    /// A clear first hit of the rounded way, if only this part of the way as given is proved to be
+    /// clear.
+    pub fn undecided(&self, mut clear: FirstHit, part: f64) -> FirstHit {
+        let lower = ((part * self.until) as f32).next_down().max(0.0);
+        clear.t = Interval::new(lower, if self.is_ray { f32::INFINITY } else { 1.0 });
+        clear.ended = Ended::Resolution;
+        clear
+    }
+
+    /// The same by balls along the way, each as large as is proved to be clear by a lower bound of
+    /// the distance of its centre.
+    ///
+    /// # Errors
+    /// Those of the distance.
+    pub fn by_balls(
+        &self,
+        mut clear: FirstHit,
+        distance: impl FnMut([f32; 3]) -> Result<(f32, Work), QueryError>,
+    ) -> Result<FirstHit, QueryError> {
+        let (part, work) = self.cleared(distance)?;
+        clear.work = clear.work.and(work);
+        Ok(if part < 1.0 { self.undecided(clear, part) } else { clear })
+    }
+
+    /// The part of the way that balls prove to be clear, 1 if it is all, and the work.
+    ///
+    /// # Errors
+    /// Those of the distance.
+    pub fn cleared(
+        &self,
+        mut distance: impl FnMut([f32; 3]) -> Result<(f32, Work), QueryError>,
+    ) -> Result<(f64, Work), QueryError> {
+        let [a, b] = self.ends.map(wide);
+        let (way, rounding) = (minus(b, a), 1e-12 * (norm(a) + norm(b)));
+        let (length, mut part, mut work) = (norm(way), 0.0, Work::NONE);
+        for _ in 0..MOST_BALLS {
+            let at = along(a, way, part);
+            let centre = at.map(|x| x as f32);
+            let (near, more) = distance(centre)?;
+            work = work.and(more);
+            let off = norm(minus(at, wide(centre))) + self.moved + rounding;
+            let free = f64::from(near) - off;
+            if free <= 0.0 {
+                break;
+            }
+            if free >= (1.0 - part) * length {
+                return Ok((1.0, work));
+            }
+            part += free / length;
+        }
+        Ok((part.min(1.0_f64.next_down()), work))
+    }
+}
+
+fn wide(x: [f32; 3]) -> [f64; 3] {
+    x.map(f64::from)
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    core::array::from_fn(|k| a[k] - b[k])
+}
+
+fn along(a: [f64; 3], way: [f64; 3], t: f64) -> [f64; 3] {
+    core::array::from_fn(|k| a[k] + t * way[k])
+}
+
+fn norm(x: [f64; 3]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
