@@ -19,8 +19,8 @@ pub enum Goal {
     /// margin counts as void. The mesh must be closed and must not overlap itself; a proved overlap
     /// is an error.
     Void(f64),
-    /// The fewest faces found of which no point is farther than this from the mesh, in its unit;
-    /// more than the margin and the distance that vertices moved.
+    /// The fewest faces found of which no point is farther than this from the input, in its unit;
+    /// more than the margin and twice the distance that vertices moved.
     Slack(f64),
 }
 
@@ -96,8 +96,9 @@ impl Options {
         Self { goal, margin: 0.0, effort: 1.0, time_limit: None, vertex_bits }
     }
 
-    /// The options of a hull of a mesh of which every point of the input is within `error`: the
-    /// hull keeps that distance too, so that it holds the input as it was before vertices moved.
+    /// The options of a hull of a mesh of which every point of the input is within `error`. The hull
+    /// keeps that distance too, so that it holds the input as it was before vertices moved. And its
+    /// slack is as much less, so that it is the slack from the input.
     ///
     /// # Errors
     /// As [`Goal::check`].
@@ -107,7 +108,11 @@ impl Options {
             return Ok(*self);
         }
         let margin = (self.margin + error).next_up();
-        self.goal.check(margin)?;
-        Ok(Self { margin, ..*self })
+        self.goal.check((margin + error).next_up())?;
+        let goal = match self.goal {
+            Goal::Slack(slack) => Goal::Slack((slack - error).next_down()),
+            goal => goal,
+        };
+        Ok(Self { margin, goal, ..*self })
     }
 }
