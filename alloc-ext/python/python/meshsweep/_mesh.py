@@ -80,9 +80,9 @@ class Bar:
         self._bar = tqdm(total=1.0, bar_format="{l_bar}{bar}| {elapsed}")
         return self._show
 
-    def _show(self, stage: str, part: float) -> None:
+    def _show(self, stage: str, fraction: float) -> None:
         self._bar.set_description_str(stage, refresh=False)
-        self._bar.update(part - self._bar.n)
+        self._bar.update(fraction - self._bar.n)
 
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:

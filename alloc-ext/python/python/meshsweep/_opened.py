@@ -70,9 +70,9 @@ class Opened:
     def bounds(self) -> NDArray[np.float32]:
         """Shape (2, 3): a box that holds the input mesh, its vertices included.
 
-        It is the box of what is stored, `surface_error` larger, and rounded outward; of a blob with
-        a field alone the field's box. Raises `NotServedError` if the blob has nothing that knows
-        it.
+        It is the box of the stored geometry, larger by its surface error, and rounded outward; of a
+        blob with a distance field alone the field's box. Raises `NotServedError` if the blob has
+        neither.
         """
         bounds = self._facts["bounds"]
         if bounds is None:
@@ -96,7 +96,11 @@ class Opened:
 
     @property
     def surface_error(self) -> float | None:
-        """No stored point of the surface is farther from the input mesh. Intervals include it."""
+        """No stored point of the box tree's surface, or of the curves, is farther from the input.
+
+        Intervals include it. `None` if the blob has neither a box tree nor curves. Hull hierarchies
+        and tight hulls have errors of their own, which their intervals include too.
+        """
         return self._facts["surface_error"]
 
     @property

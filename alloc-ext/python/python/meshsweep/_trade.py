@@ -1,4 +1,4 @@
-"""Measures what settings guarantee and cost, and chooses one that meets limits."""
+"""Measures the widest intervals and the costs of settings, and chooses one that meets limits."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class Instructions(NamedTuple):
     cpu: str
     mean: float
     most: float
-    """Of the costliest query that was asked."""
+    """Of the costliest query that was measured."""
     at_most: float
-    """The same, times the most that predictions were short of counts when they were fitted."""
+    """`most` times the largest factor by which the fit missed a question's costliest query."""
     error: float
     """Largest relative error of a predicted mean when costs were fitted."""
     stack: int
@@ -30,17 +30,19 @@ class Instructions(NamedTuple):
 
 
 class TradeRow(NamedTuple):
-    """A setting, what it guarantees and what it costs. Lengths are in the mesh's unit."""
+    """A setting, its widest measured interval, and its cost. Lengths are in the mesh's unit."""
 
     structure: str
-    dials: str
-    """How it is asked: "exact", or tolerances, steps, and what is kept between queries."""
+    budget: str
+    """The options of its queries: "exact", or tolerances and steps, and what is kept between
+    queries. `meshsweep trade` calls them dials."""
     build: str
     """Options of `meshsweep build` that give it."""
     error: float | None
-    """The widest interval that was found: of other queries it may be wider, and holds. `None` of
-    lower bounds."""
+    """The width of the widest interval that was measured. Intervals of other queries may be wider,
+    and hold. `None` of lower bounds."""
     median_error: float | None
+    """The median of the widths."""
     undecided: int
     """Segments that stayed undecided; of curves sides, and verdicts of `within`."""
     instructions: dict[str, Instructions]
@@ -52,18 +54,20 @@ class TradeRow(NamedTuple):
     nanoseconds: float
     """Of a mean query on one thread here."""
     is_best: bool
-    """Whether no other row has as small an error, as few instructions and as little flash."""
+    """Whether no other row is as good in `error`, mean instructions of the Cortex-M4F and `flash`,
+    and better in one of them. Other processors are not compared. Of equal rows the first is
+    best."""
 
 
 class Trade(NamedTuple):
-    """What each setting of each structure costs and guarantees."""
+    """The widest measured interval and the cost of each setting of each structure."""
 
     rows: list[TradeRow]
     not_built: list[tuple[str, str]]
     """Structures that the mesh does not allow, and why."""
     needles: float
-    """The part of the triangles that are fifty times as long as high: from 0.1 on the mesh takes
-    more instructions than predicted, which `at_most` allows for."""
+    """The fraction of the triangles that are fifty times as long as high. From 0.1 on the mesh
+    takes more instructions than predicted, which `at_most` allows for."""
 
 
 class Choice(NamedTuple):
@@ -71,7 +75,7 @@ class Choice(NamedTuple):
 
     model: Model
     first: TradeRow
-    """The setting: `dials` say how firmware asks the model, `build` how it was built."""
+    """The setting: `budget` has the options of firmware's queries, `build` those of the build."""
     second: TradeRow | None
     """The best of the other settings that meet the limits and have less of something."""
     needles: float
@@ -88,7 +92,7 @@ def trade(
     unit: str | None = None,
     closed: bool = False,
 ) -> Trade:
-    """Measures what each setting of each structure guarantees and costs: `meshsweep trade`.
+    """Measures the widest interval and the cost of each setting: `meshsweep trade`.
 
     `mesh`, `unit` and `closed` as of `build`. `for_` is "closest" or "segment". `at` is "near" the
     surface, "far", or a "path", of `count` points or segments; or points of shape (n, 3), segments
