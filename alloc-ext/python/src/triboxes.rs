@@ -79,15 +79,15 @@ impl Model {
             let mut found = triboxes.clip(a, b, budget, scratch)?;
             if found.lower == f32::INFINITY && moved(&row) > 0.0 {
                 let mut last = None;
-                let (part, work) = Way::of_segment([a, b], moved(&row)).cleared(|centre| {
+                let (fraction, work) = Way::of_segment([a, b], moved(&row)).cleared(|centre| {
                     let near = triboxes.distance(centre, budget, scratch)?;
                     last = near.node;
                     Ok((near.lower, near.work))
                 })?;
                 found.work = found.work.and(work);
-                if part < 1.0 {
+                if fraction < 1.0 {
                     (found.node, found.ended) = (last, Ended::Resolution);
-                    found.lower = (part as f32).next_down().max(0.0);
+                    found.lower = (fraction as f32).next_down().max(0.0);
                 }
             }
             Ok(Clipped(found))

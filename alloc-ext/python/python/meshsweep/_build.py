@@ -134,8 +134,8 @@ def build(
         if None in tight_faces:
             raise BuildError("tight_faces: whole numbers are wanted, not None")
         options["tight_faces"] = [whole(most, "tight_faces", BuildError) for most in tight_faces]
-    with Bar(progress) as tell:
-        return Model(_meshsweep.build(given(mesh), options, tell))
+    with Bar(progress) as on_progress:
+        return Model(_meshsweep.build(given(mesh), options, on_progress))
 
 
 def _number(given: Any, what: str, refused: Any) -> float | None:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import checked, numbers, single
 from ._meshsweep import QueryError
-from ._opened import Opened
+from ._opened import OpenBlob
 
 
 class TightHull(NamedTuple):
@@ -35,7 +35,7 @@ class RefinedHull(NamedTuple):
     hull of two million faces, which are the most."""
 
 
-class Hulls(Opened):
+class Hulls(OpenBlob):
     """The geometry of hulls."""
 
     def tight_hulls(self) -> list[TightHull]:

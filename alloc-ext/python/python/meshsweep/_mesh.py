@@ -23,8 +23,8 @@ class Faces(Protocol):
 
 
 Mesh = str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Faces
-Tell = Callable[[str, float], Any] | None
-Progress = bool | Tell
+OnProgress = Callable[[str, float], Any] | None
+Progress = bool | OnProgress
 
 
 def given(mesh: Any) -> str | tuple[NDArray[np.float64], NDArray[np.uint32]]:
@@ -70,7 +70,7 @@ class Bar:
         self._progress = progress
         self._bar: Any = None
 
-    def __enter__(self) -> Tell:
+    def __enter__(self) -> OnProgress:
         if self._progress is not True:
             return self._progress or None
         try:

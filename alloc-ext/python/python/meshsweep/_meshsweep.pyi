@@ -34,7 +34,7 @@ _Limits: TypeAlias = tuple[float, float, int | None]
 _Many: TypeAlias = tuple[NDArray[np.uint64], _Records, NDArray[np.bool_]]
 _Mesh: TypeAlias = tuple[NDArray[np.float32], NDArray[np.uint32]]
 _Given: TypeAlias = str | tuple[NDArray[np.float64], NDArray[np.uint32]]
-_Tell: TypeAlias = Callable[[str, float], Any] | None
+_OnProgress: TypeAlias = Callable[[str, float], Any] | None
 
 class _Facts(TypedDict):
     serves: list[str]
@@ -65,7 +65,7 @@ class _Wanted(TypedDict):
     count: int
     unit: str | None
     closed: bool
-    progress: _Tell
+    progress: _OnProgress
 
 class _Device(TypedDict):
     flash: int | None
@@ -161,7 +161,7 @@ def hausdorff(
     unit: str | None,
 ) -> _Bounds: ...
 def words_of_for() -> list[str]: ...
-def build(mesh: _Given, options: dict[str, Any], progress: _Tell) -> Model: ...
+def build(mesh: _Given, options: dict[str, Any], progress: _OnProgress) -> Model: ...
 def trade(wanted: _Wanted) -> _Measured: ...
 def choose(wanted: _Wanted, device: _Device) -> tuple[Model, _Chosen]: ...
 def verify(

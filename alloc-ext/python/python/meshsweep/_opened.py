@@ -19,7 +19,7 @@ class Note(NamedTuple):
     text: str
 
 
-class Opened:
+class OpenBlob:
     """An opened blob. Its questions are in the classes that inherit it; `Model` has them all."""
 
     def __init__(self, blob: bytes | bytearray | memoryview | _meshsweep.Model) -> None:
@@ -35,7 +35,7 @@ class Opened:
     def __bytes__(self) -> bytes:
         return self._model.bytes()
 
-    def __reduce__(self) -> tuple[type[Opened], tuple[bytes], list[tuple[str, str]]]:
+    def __reduce__(self) -> tuple[type[OpenBlob], tuple[bytes], list[tuple[str, str]]]:
         return type(self), (bytes(self),), self._notes
 
     def __setstate__(self, notes: list[tuple[str, str]]) -> None:
@@ -43,7 +43,7 @@ class Opened:
 
     def __eq__(self, other: object) -> bool:
         """Whether the bytes are the same."""
-        return bytes(self) == bytes(other) if isinstance(other, Opened) else NotImplemented
+        return bytes(self) == bytes(other) if isinstance(other, OpenBlob) else NotImplemented
 
     def __hash__(self) -> int:
         return hash(bytes(self))
@@ -111,6 +111,6 @@ class Opened:
 
 def other_of(model: Any) -> _meshsweep.Model:
     """The second model of a question."""
-    if not isinstance(model, Opened):
+    if not isinstance(model, OpenBlob):
         raise QueryError(f"other: another Model is wanted, not {type(model).__name__}")
     return model._model

@@ -11,17 +11,17 @@ from . import _records
 from ._arrays import checked, framed, limits, yes_or_no
 from ._arrays import poses as poses_of
 from ._meshsweep import QueryError
-from ._opened import Opened, other_of
+from ._opened import OpenBlob, other_of
 from ._records import Lists, Records, ask, ask_lists
 from ._rounding import least, verdict_at_unrounded_distance
 
 
-class Pairs(Opened):
+class Pairs(OpenBlob):
     """Questions about two models."""
 
     def distance_to(
         self,
-        other: Opened,
+        other: OpenBlob,
         poses: ArrayLike | None = None,
         *,
         rel: SupportsFloat = 0.0,
@@ -42,7 +42,7 @@ class Pairs(Opened):
         return ask(self._model.distance_to, _records.PAIR, poses_of(poses), *how)
 
     def within_of(
-        self, other: Opened, distance: SupportsFloat, poses: ArrayLike | None = None
+        self, other: OpenBlob, distance: SupportsFloat, poses: ArrayLike | None = None
     ) -> Records:
         """Whether both surfaces are at most `distance` apart, at poses of the other. Both need
         "segment".
@@ -61,7 +61,7 @@ class Pairs(Opened):
 
     def overlap(
         self,
-        other: Opened,
+        other: OpenBlob,
         poses: ArrayLike | None = None,
         *,
         frame: ArrayLike | None = None,
@@ -82,7 +82,7 @@ class Pairs(Opened):
             return ask(self._model.overlap_at, _records.WITHIN_OF, rows, second)
         return ask(self._model.overlap, _records.WITHIN_OF, matrices, second)
 
-    def all_overlaps(self, other: Opened, poses: ArrayLike | None = None) -> Lists:
+    def all_overlaps(self, other: OpenBlob, poses: ArrayLike | None = None) -> Lists:
         """All pairs of triangles that meet or may meet, at poses of the other: `Lists` of n
         records. Poses are rounded, as those of `distance_to`.
 
@@ -96,7 +96,7 @@ class Pairs(Opened):
 
     def penetration(
         self,
-        other: Opened,
+        other: OpenBlob,
         poses: ArrayLike | None = None,
         *,
         rel: SupportsFloat = 0.0,
@@ -119,7 +119,7 @@ class Pairs(Opened):
 
     def first_contact_of(
         self,
-        other: Opened,
+        other: OpenBlob,
         from_poses: ArrayLike,
         to_poses: ArrayLike,
         *,

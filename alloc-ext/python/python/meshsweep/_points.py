@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 from . import _records
 from ._arrays import checked, distances, framed, limits, rows, whole, yes_or_no
 from ._meshsweep import QueryError
-from ._opened import Opened
+from ._opened import OpenBlob
 from ._records import Lists, Records, Verdict, ask, ask_lists
 from ._rounding import least, rounded, verdict_at_unrounded_distance, widened
 
 
-class Points(Opened):
+class Points(OpenBlob):
     """Questions about points."""
 
     def _points(self, points: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:

@@ -12,7 +12,7 @@ from . import _records
 from ._arrays import facing as facing_of
 from ._arrays import framed, pairs, whole
 from ._meshsweep import QueryError
-from ._opened import Opened
+from ._opened import OpenBlob
 from ._records import Facing, Lists, Records, ask, ask_lists
 from ._rounding import moved_pairs
 
@@ -26,7 +26,7 @@ class AllHits(NamedTuple):
     """Shape (n,): whether it is proved that no other triangle is hit."""
 
 
-class Segments(Opened):
+class Segments(OpenBlob):
     """Questions about segments and rays."""
 
     def first_hit(

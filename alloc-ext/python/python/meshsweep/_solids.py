@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _records
 from ._arrays import checked, distances, limits, rows, solids, whole, yes_or_no
 from ._meshsweep import QueryError
-from ._opened import Opened
+from ._opened import OpenBlob
 from ._records import Records, ask
 from ._rounding import moved_pairs, rounded, up, verdict_at_unrounded_distance, widened
 
@@ -22,7 +22,7 @@ def _placed(corners: ArrayLike, what: str) -> tuple[NDArray[np.float32], NDArray
     return flat, np.zeros(len(near), np.float32) if moved is None else moved.max(axis=1)
 
 
-class Solids(Opened):
+class Solids(OpenBlob):
     """Questions about convex solids.
 
     A solid is all points within a radius of the hull of its 1 to 32 corners: one corner is a ball,

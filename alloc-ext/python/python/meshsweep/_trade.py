@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import _meshsweep
 from ._arrays import checked, numbers, single, whole, word, yes_or_no
-from ._mesh import Bar, Mesh, Progress, Tell, given
+from ._mesh import Bar, Mesh, OnProgress, Progress, given
 from ._meshsweep import BuildError
 from ._model import Model
 
@@ -106,8 +106,8 @@ def trade(
     call; threads that measure may work on for a while. Raises `BuildError` if the mesh or an option
     is refused.
     """
-    with Bar(progress) as tell:
-        found = _meshsweep.trade(_wanted(mesh, for_, at, count, unit, closed, tell))
+    with Bar(progress) as on_progress:
+        found = _meshsweep.trade(_wanted(mesh, for_, at, count, unit, closed, on_progress))
     rows = [_row(row) for row in found["rows"]]
     return Trade(rows, found["not_built"], found["needles"])
 
@@ -154,8 +154,8 @@ def choose(
         device["cpu"] = name, clock
     elif rate is not None:
         raise BuildError('rate: it takes a processor, as cpu=("m4f", 168e6)')
-    with Bar(progress) as tell:
-        wanted = _wanted(mesh, for_, at, count, unit, closed, tell)
+    with Bar(progress) as on_progress:
+        wanted = _wanted(mesh, for_, at, count, unit, closed, on_progress)
         model, found = _meshsweep.choose(wanted, device)
     second = None if found["second"] is None else _row(found["second"])
     return Choice(Model(model), _row(found["first"]), second, found["needles"])
@@ -179,7 +179,7 @@ def _wanted(
     count: int,
     unit: str | None,
     closed: bool,
-    tell: Tell,
+    on_progress: OnProgress,
 ) -> _meshsweep._Wanted:
     """What is measured."""
     places: str | list[list[float]]
@@ -203,7 +203,7 @@ def _wanted(
         "count": most,
         "unit": word(unit, "unit", BuildError),
         "closed": yes_or_no(closed, "closed", BuildError),
-        "progress": tell,
+        "progress": on_progress,
     }
 
 

@@ -11,7 +11,7 @@ from . import _records
 from ._arrays import checked, rows, whole
 from ._arrays import poses as poses_of
 from ._meshsweep import QueryError
-from ._opened import Opened, other_of
+from ._opened import OpenBlob, other_of
 from ._records import Lists, Records, ask, ask_lists
 from ._rounding import least, moved_pairs, rounded, widened
 
@@ -45,7 +45,7 @@ class Triboxes(NamedTuple):
     """No point of the union's boundary is farther from the mesh. `None` if that is not stored."""
 
 
-class TriboxQuestions(Opened):
+class TriboxQuestions(OpenBlob):
     """Questions to triboxes, and their geometry."""
 
     def triboxes(self, count: int | None = None) -> Triboxes:
@@ -92,7 +92,7 @@ class TriboxQuestions(Opened):
         return ask(question, dtype, moved_pairs(starts, ends), whole(steps, "steps"))
 
     def tribox_within_of(
-        self, other: Opened, distance: SupportsFloat, poses: ArrayLike | None = None
+        self, other: OpenBlob, distance: SupportsFloat, poses: ArrayLike | None = None
     ) -> Records:
         """Whether both models may be at most `distance` apart, at poses of the other as those of
         `distance_to`, by triboxes alone. Both need "triboxes".
@@ -105,12 +105,12 @@ class TriboxQuestions(Opened):
         how = other_of(other), least(checked(distance))
         return ask(self._model.tribox_within_of, _records.TRIBOX_PAIR, poses_of(poses), *how)
 
-    def tribox_overlap(self, other: Opened, poses: ArrayLike | None = None) -> Records:
+    def tribox_overlap(self, other: OpenBlob, poses: ArrayLike | None = None) -> Records:
         """Whether both models may meet: `tribox_within_of` with a distance of 0. Models that only
         touch are not proved to be apart."""
         return self.tribox_within_of(other, 0.0, poses)
 
-    def tribox_candidates(self, other: Opened, poses: ArrayLike | None = None) -> Lists:
+    def tribox_candidates(self, other: OpenBlob, poses: ArrayLike | None = None) -> Lists:
         """All pairs of triboxes that may meet, at poses of the other: `Lists` of n records.
 
         Field: `triboxes`, a node of each model, as `Triboxes.node` names them. An empty list proves
