@@ -68,9 +68,10 @@ impl Engine<'_> {
         }
     }
 
-    /// A clear first hit of a rounded segment or ray, carried over to the caller's one. Rows have both
-    /// points, and how far rounding moved each. The caller's one is clear if a ball of the rounding's
-    /// radius passes along the rounded one. The ball stops at triangles of either facing.
+    /// A clear first hit of a rounded segment or ray, carried over to the caller's one. Rows have
+    /// both points, and how far rounding moved each. The caller's one is clear if a ball of the
+    /// rounding's radius passes along the rounded one. The ball stops at triangles of either
+    /// facing.
     pub fn as_given(
         &self,
         row: &[f32; 8],

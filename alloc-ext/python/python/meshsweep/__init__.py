@@ -27,11 +27,11 @@ needs. A blob without them raises `NotServedError`, which names the word to add.
 **Rounding.** Questions are computed from points in single precision. Points in double precision are
 rounded first, and intervals of distances, sides and verdicts about one distance are widened by
 that, so that they hold for the points as given. So are answers about solids, by the rounding of
-their corners. The side by a winding number may change by any motion, so `signed_distance` does not use it for points
-that were moved, and `winding_number` tells their sides of a closed mesh alone, away from it.
-Segments and rays are rounded, and a `NO` of `first_hit` and of its kin is proved for the one as
-given; all else is about the rounded one. Poses are rounded, and the answer is about the rounded
-one. Give float32 to see no rounding.
+their corners. The side by a winding number may change by any motion, so `signed_distance` does not
+use it for points that were moved, and `winding_number` tells their sides of a closed mesh alone,
+away from it. Segments and rays are rounded, and a `NO` of `first_hit` and of its kin is proved for
+the one as given; all else is about the rounded one. Poses are rounded, and the answer is about the
+rounded one. Give float32 to see no rounding.
 
 **Key frames.** The model of a mesh that deforms, `build(..., "deform", frames=[...])`, is asked
 with `frame`: 1.25 is a quarter of the way from frame 1 to frame 2, and 0 is the mesh at rest.

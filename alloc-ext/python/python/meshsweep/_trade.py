@@ -186,13 +186,13 @@ def _wanted(
     if isinstance(at, str):
         places = at
     else:
-        asked = numbers(at, "at", BuildError)
+        given_places = numbers(at, "at", BuildError)
         shape, wanted = ((2, 3), "(n, 2, 3)") if for_ == "segment" else ((3,), "(n, 3)")
-        if asked.shape[1:] != shape:
-            raise BuildError(f"at: shape {wanted} is wanted, not {asked.shape}")
-        if not np.all(np.isfinite(single(asked))):
+        if given_places.shape[1:] != shape:
+            raise BuildError(f"at: shape {wanted} is wanted, not {given_places.shape}")
+        if not np.all(np.isfinite(single(given_places))):
             raise BuildError("at: a number is not finite, or beyond single precision")
-        places = single(asked).reshape(-1, 3).tolist()
+        places = single(given_places).reshape(-1, 3).tolist()
     most = whole(count, "count", BuildError)
     if not most:
         raise BuildError("count: at least 1 is wanted")
