@@ -121,8 +121,8 @@ impl Options {
             .sdf_margin(self.sdf_margin))
     }
 
-    /// Builds without the interpreter's lock. `progress` gets the name of what is being done and
-    /// the part of the work that is done. An exception of it, or Ctrl-C, ends the build.
+    /// Builds without the interpreter's lock. `progress` gets the name of the stage and the
+    /// fraction of the work that is done. An exception of it, or Ctrl-C, ends the build.
     fn build(
         &self,
         py: Python<'_>,
@@ -131,16 +131,16 @@ impl Options {
     ) -> PyResult<Model> {
         let (mut raised, stop) = (None, AtomicBool::new(false));
         let work = || {
-            let told = |stage: Stage, part| {
+            let report = |stage: Stage, fraction| {
                 if stop.load(Ordering::Relaxed) {
                     return ControlFlow::Break(());
                 }
-                let told = Python::attach(|py| {
+                let reported = Python::attach(|py| {
                     py.check_signals()?;
-                    let tell = |to: &Py<PyAny>| to.call1(py, (stage.name(), part)).map(drop);
-                    progress.as_ref().map_or(Ok(()), tell)
+                    let call = |to: &Py<PyAny>| to.call1(py, (stage.name(), fraction)).map(drop);
+                    progress.as_ref().map_or(Ok(()), call)
                 });
-                match told {
+                match reported {
                     Ok(()) => ControlFlow::Continue(()),
                     Err(error) => {
                         raised = Some(error);
@@ -148,7 +148,7 @@ impl Options {
                     }
                 }
             };
-            self.builder().map(|builder| run(builder.on_progress(told)))
+            self.builder().map(|builder| run(builder.on_progress(report)))
         };
         let built = py.detach(|| on_all_cores_until_stopped(&stop, work))??;
         match (raised, built) {

@@ -4,7 +4,7 @@ use crate::error::NotServedError;
 use crate::model::{BESIDE_HULL, Model};
 use crate::rounding::{Way, moved};
 use crate::segments::ends;
-use crate::solids::Asks;
+use crate::solids::SolidQueries;
 use meshsweep::bvh::FastBvh;
 use meshsweep_core::{
     AllHits, AllOverlaps, Budget, Bvh, Decided, Facing, FirstHit, Hull, Pose, QueryError,
@@ -25,7 +25,7 @@ pub enum Both<'a> {
 }
 
 impl Model {
-    /// The box tree; without one the hull hierarchy, which tells no facing.
+    /// The box tree; without one the hull hierarchy, which knows no facing.
     pub fn engine(&self, facing: Facing) -> PyResult<Engine<'_>> {
         match (self.tree("segment"), self.blob().hull()) {
             (Err(_), Ok(hull)) if facing == Facing::Both => Ok(Engine::Hull(hull)),
@@ -68,9 +68,10 @@ impl Engine<'_> {
         }
     }
 
-    /// A first hit that is clear, as it is of the segment or ray before it was rounded. Rows have
-    /// both points, and how far rounding moved each. Clear is what a ball of the rounding's radius
-    /// passes: that looks at no facing.
+    /// A clear first hit of a rounded segment or ray, carried over to the caller's one. Rows have
+    /// both points, and how far rounding moved each. The caller's one is clear if a ball of the
+    /// rounding's radius passes along the rounded one. The ball stops at triangles of either
+    /// facing.
     pub fn as_given(
         &self,
         row: &[f32; 8],
@@ -90,7 +91,7 @@ impl Engine<'_> {
             false => Way::of_segment(points, moved(row)),
         };
         let tree = match self {
-            Self::Tree(tree) => Asks::Tree(**tree),
+            Self::Tree(tree) => SolidQueries { tree: **tree, with_field: None },
             Self::Hull(hull) => {
                 return way.by_balls(clear, |centre| {
                     let near = hull.closest_point(centre, budget, scratch)?;
@@ -117,15 +118,17 @@ impl Engine<'_> {
         [a, b]: [[f32; 3]; 2],
         is_ray: bool,
         facing: Facing,
-        room: &mut [TriangleHit],
+        answers: &mut [TriangleHit],
         scratch: &mut [ScratchEntry],
     ) -> Result<AllHits, QueryError> {
         let budget = Budget::EXACT;
         match (self, is_ray) {
-            (Self::Tree(tree), true) => tree.all_hits_of_ray(a, b, facing, room, budget, scratch),
-            (Self::Tree(tree), false) => tree.all_hits(a, b, facing, room, budget, scratch),
-            (Self::Hull(hull), true) => hull.all_hits_of_ray(a, b, room, budget, scratch),
-            (Self::Hull(hull), false) => hull.all_hits(a, b, room, budget, scratch),
+            (Self::Tree(tree), true) => {
+                tree.all_hits_of_ray(a, b, facing, answers, budget, scratch)
+            }
+            (Self::Tree(tree), false) => tree.all_hits(a, b, facing, answers, budget, scratch),
+            (Self::Hull(hull), true) => hull.all_hits_of_ray(a, b, answers, budget, scratch),
+            (Self::Hull(hull), false) => hull.all_hits(a, b, answers, budget, scratch),
         }
     }
 }
@@ -153,12 +156,12 @@ impl Both<'_> {
     pub fn all_overlaps(
         &self,
         pose: Pose,
-        room: &mut [TrianglePair],
+        answers: &mut [TrianglePair],
         scratch: &mut [ScratchEntry],
     ) -> Result<AllOverlaps, QueryError> {
         match self {
-            Self::Trees([a, b]) => a.all_overlaps(b, pose, room, Budget::EXACT, scratch),
-            Self::Hulls([a, b]) => a.all_overlaps(b, pose, room, Budget::EXACT, scratch),
+            Self::Trees([a, b]) => a.all_overlaps(b, pose, answers, Budget::EXACT, scratch),
+            Self::Hulls([a, b]) => a.all_overlaps(b, pose, answers, Budget::EXACT, scratch),
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::build::unit_named;
 use crate::error::{in_python, refused};
 use crate::mesh::{Given, Taken};
-use crate::pool::aside;
+use crate::pool::run_detached;
 use meshsweep::hausdorff::{Attained, Direction, Ended, Precision, Refused, hausdorff as measure};
 use meshsweep::load::{Loaded, require_same_unit};
 use meshsweep::mesh::Unit;
@@ -21,11 +21,11 @@ pub struct Bounds {
     /// Points of the first and the second mesh, and their triangles.
     ends: Option<[([f64; 3], u32); 2]>,
     is_backward: Option<bool>,
-    ended: &'static str,
+    stopped_by: &'static str,
     pieces: usize,
     unit: Option<&'static str>,
     rounding: [f64; 2],
-    doubts: Vec<String>,
+    warnings: Vec<String>,
 }
 
 /// The names of both meshes in messages.
@@ -50,10 +50,13 @@ pub fn hausdorff(
     let (meshes, unit) = ([a.taken()?, b.taken()?], unit_named(unit.as_deref())?);
     let direction = if is_one_sided { Direction::Forward } else { Direction::Both };
     let precision = Precision { relative, absolute, at_most };
-    py.detach(|| aside(move |stop| of_two(meshes, unit, direction, &precision, stop)))
+    py.detach(|| run_detached(move |stop| of_two(meshes, unit, direction, &precision, stop)))
 }
 
-/// Loads both meshes and measures; Ctrl-C makes that idle.
+/// Loads both meshes and bounds their distance. Ctrl-C sets `stop`, which ends either.
+///
+/// # Errors
+/// A mesh that is refused; meshes of different units; Ctrl-C.
 fn of_two(
     meshes: [Taken; 2],
     unit: Option<Unit>,
@@ -77,13 +80,14 @@ fn of_two(
         .map_err(|error| refused(&error))?;
     let mut progress = |_: f64, _: f64| {
         if stop.load(Ordering::Relaxed) {
-            // The search has no other way out, and nobody waits. No panic is reported.
+            // The search returns no error, so a panic ends it. `resume_unwind` reports none, and
+            // after Ctrl-C there is no receiver.
             resume_unwind(Box::new("stopped"));
         }
     };
     let found = measure(&first.mesh, &second.mesh, direction, precision, &mut progress)
         .map_err(|Refused { is_second, error }| of_mesh(NAMES[usize::from(is_second)], &error))?;
-    let doubts = |(loaded, name): (&Loaded, &str)| {
+    let warnings = |(loaded, name): (&Loaded, &str)| {
         let doubts = loaded.report.doubts();
         doubts.map(|said| format!("{name}: {}", in_python(&said))).collect::<Vec<_>>()
     };
@@ -92,15 +96,15 @@ fn of_two(
         upper: found.upper,
         ends: found.attained.as_ref().map(ends),
         is_backward: found.attained.map(|at| at.is_backward),
-        ended: match found.ended {
+        stopped_by: match found.ended {
             Ended::Precision => "precision",
             Ended::Rounding => "rounding",
-            Ended::Pieces => "pieces",
+            Ended::Pieces => "piece_limit",
         },
         pieces: found.pieces,
         unit: first.unit.or(second.unit).map(Unit::symbol),
         rounding: [first.report.rounding, second.report.rounding],
-        doubts: loaded.iter().zip(NAMES).flat_map(doubts).collect(),
+        warnings: loaded.iter().zip(NAMES).flat_map(warnings).collect(),
     })
 }
 

@@ -18,7 +18,8 @@ type Arrays<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray2<u32>>);
 /// Splits that a refined hull may have: a mesh of two million triangles.
 const SPLITS: usize = 1 << 20;
 
-/// A stack that holds them more than once, for builds that copy values.
+/// Bytes of the stack for a refined hull: eight times its array of 16 bytes a split. Builds without
+/// optimisation copy the array.
 const STACK: usize = 8 * 16 * SPLITS;
 
 fn arrays<'py>(py: Python<'py>, mesh: &Mesh) -> PyResult<Arrays<'py>> {
@@ -47,7 +48,8 @@ impl Model {
 
 #[pymethods]
 impl Model {
-    /// Tight hulls, coarse to fine: vertices, triangles, and how far they may be from the mesh.
+    /// Tight hulls, coarse to fine: vertices, triangles, and a bound of their distance from the
+    /// mesh, which includes the surface error.
     fn tight_hulls<'py>(&self, py: Python<'py>) -> PyResult<Vec<(Arrays<'py>, f64)>> {
         let hulls = self.blob().tight_hulls().map_err(|_| missing("tight hulls", "tight"))?;
         let hulls = (0..hulls.count()).filter_map(|index| hulls.get(index));

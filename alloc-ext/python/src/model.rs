@@ -25,14 +25,14 @@ pub struct Model {
     report: Vec<(&'static str, String)>,
 }
 
-/// More scratch entries than a curve needs: with these, searches go best first.
+/// Scratch entries beyond those that a curve needs. With them a search with a limit of steps opens
+/// the nodes of the least lower bounds first.
 pub const BEST_FIRST: usize = 256;
 
-/// The same of a hull hierarchy.
+/// The same for a hull hierarchy.
 pub const BESIDE_HULL: usize = 4096;
 
-/// A budget of two tolerances, a part of the distance and a length, and of steps; `None` is no
-/// limit.
+/// A budget of a relative tolerance, an absolute one, and steps; `None` is no limit.
 pub fn budget((rel, abs, steps): (f32, f32, Option<u32>)) -> Budget {
     let steps = steps.unwrap_or(u32::MAX);
     Budget::EXACT.with_relative(rel).with_absolute(abs).with_steps(steps)
@@ -41,8 +41,8 @@ pub fn budget((rel, abs, steps): (f32, f32, Option<u32>)) -> Budget {
 impl Model {
     /// The model of a build, with its report.
     pub fn built(built: Built) -> PyResult<Self> {
-        let told = built.report().map(|note| (note.topic.name(), in_python(&note.text)));
-        let report = told.collect();
+        let notes = built.report().map(|note| (note.topic.name(), in_python(&note.text)));
+        let report = notes.collect();
         Self::of(built.into_bytes(), report)
     }
 
@@ -60,18 +60,21 @@ impl Model {
         self.opened.borrow_owner()
     }
 
-    /// The box of what is stored, and how far the input may be beside that.
-    fn stored_bounds(&self) -> Option<([[f32; 3]; 2], f32)> {
-        let of_tree = |tree: &Bvh<'_>| (tree.bounds(), tree.surface_error());
+    /// The box of what is stored, and how far the input may be outside of it. `None` if the box
+    /// holds the vertices of the input as f32.
+    fn stored_bounds(&self) -> Option<([[f32; 3]; 2], Option<f32>)> {
+        let beyond = |error: f32| (error != 0.0).then_some(error);
+        let of_tree = |tree: &Bvh<'_>| (tree.bounds(), beyond(tree.surface_error()));
         let of_distances = self.distances(false).ok().map(|structure| match &structure {
-            Distances::Hull(hull) => (hull.bounds(), hull.surface_error()),
-            Distances::Curve(curve) => (curve.bounds(), curve.surface_error()),
+            Distances::Hull(hull) => (hull.bounds(), beyond(hull.surface_error())),
+            Distances::Curve(curve) => (curve.bounds(), beyond(curve.surface_error())),
             Distances::Tight(hull) => of_tree(hull.bvh()),
             Distances::TreeWithField(both) => of_tree(both.tree()),
             Distances::Tree(tree) => of_tree(tree),
         });
         let of_tree = || self.blob().bvh().ok().as_ref().map(of_tree);
-        let of_field = || self.blob().sdf().ok().map(|field| (field.bounds(), f32::MIN_POSITIVE));
+        // A field's box holds the input, and is rounded.
+        let of_field = || self.blob().sdf().ok().map(|field| (field.bounds(), Some(0.0)));
         of_distances.or_else(of_tree).or_else(of_field)
     }
 
@@ -116,12 +119,10 @@ impl Model {
     }
 }
 
-/// The box, rounded to nearest, with so much around it: rounded outward.
-fn grown(bounds: [[f32; 3]; 2], error: f32) -> [[f32; 3]; 2] {
-    if error == 0.0 {
-        // The vertices are in f32, and rounding to nearest keeps their order with the box.
-        return bounds;
-    }
+/// A box that was rounded to nearest, larger by `error` and rounded outward. `None`: the box of f32
+/// vertices, which rounding to nearest does not move.
+fn grown(bounds: [[f32; 3]; 2], error: Option<f32>) -> [[f32; 3]; 2] {
+    let Some(error) = error else { return bounds };
     // The sum in f64, and its rounding to f32, are off by less than one step.
     let sum = |x: f32, error: f32| (f64::from(x) + f64::from(error)) as f32;
     let [low, high] = bounds;

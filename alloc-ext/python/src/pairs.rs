@@ -1,7 +1,7 @@
 //! Questions about two models, the second at many poses or on its way between two.
 
 use crate::model::{Model, budget};
-use crate::rows::{Asked, Found, Lists, Records};
+use crate::rows::{Found, Lists, QueryRows, Records};
 use meshsweep::bvh::FastBvh;
 use meshsweep_core::{AllOverlaps, Budget, Bvh, Motion, Pose, TrianglePair};
 use pyo3::prelude::*;
@@ -31,13 +31,13 @@ impl Model {
     /// The distance of both surfaces at each pose of the second.
     fn distance_to<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         other: &Model,
         rel: f32,
         abs: f32,
     ) -> PyResult<Records<'py>> {
         let (pair, budget) = (self.pair(other, "segment")?, budget((rel, abs, None)));
-        asked.each(entries(&pair), |row: [f32; 12], scratch| {
+        rows.each(entries(&pair), |row: [f32; 12], scratch| {
             pair[0].distance_to(&pair[1], pose(&row), budget, scratch)
         })
     }
@@ -45,28 +45,28 @@ impl Model {
     /// Whether the surfaces are within a distance.
     fn within_of<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         other: &Model,
         distance: f32,
     ) -> PyResult<Records<'py>> {
         let pair = self.pair(other, "segment")?;
-        asked.each(entries(&pair), |row: [f32; 12], scratch| {
+        rows.each(entries(&pair), |row: [f32; 12], scratch| {
             pair[0].within_of(&pair[1], pose(&row), distance, Budget::EXACT, scratch)
         })
     }
 
     /// Whether the surfaces meet.
-    fn overlap<'py>(&self, asked: Asked<'py>, other: &Model) -> PyResult<Records<'py>> {
+    fn overlap<'py>(&self, rows: QueryRows<'py>, other: &Model) -> PyResult<Records<'py>> {
         let both = self.both(other)?;
-        asked.each(both.entries(), |row: [f32; 12], scratch| both.overlap(pose(&row), scratch))
+        rows.each(both.entries(), |row: [f32; 12], scratch| both.overlap(pose(&row), scratch))
     }
 
     /// The pairs of triangles that meet or may meet.
-    fn all_overlaps<'py>(&self, asked: Asked<'py>, other: &Model) -> PyResult<Lists<'py>> {
+    fn all_overlaps<'py>(&self, rows: QueryRows<'py>, other: &Model) -> PyResult<Lists<'py>> {
         let both = self.both(other)?.knows_triangles()?;
-        asked.lists(both.entries(), TrianglePair::EMPTY, |row: [f32; 12], room, scratch| {
+        rows.lists(both.entries(), TrianglePair::EMPTY, |row: [f32; 12], answers, scratch| {
             let AllOverlaps { stored, dropped, .. } =
-                both.all_overlaps(pose(&row), room, scratch)?;
+                both.all_overlaps(pose(&row), answers, scratch)?;
             Ok(Found { stored, dropped, is_complete: true })
         })
     }
@@ -74,7 +74,7 @@ impl Model {
     /// How both solids lie to each other, and how deep they are in each other.
     fn penetration<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         other: &Model,
         limits: (f32, f32, Option<u32>),
     ) -> PyResult<Records<'py>> {
@@ -82,7 +82,7 @@ impl Model {
             self.pair(other, word)?;
         }
         let (pair, budget) = (self.pair(other, "winding")?, budget(limits));
-        asked.each(entries(&pair), |row: [f32; 12], scratch| {
+        rows.each(entries(&pair), |row: [f32; 12], scratch| {
             pair[0].penetration(&pair[1], pose(&row), budget, scratch)
         })
     }
@@ -90,19 +90,19 @@ impl Model {
     /// How far each move of the second keeps the distance. Rows have two poses.
     fn first_contact_of<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         other: &Model,
         is_straight: bool,
-        keep: f32,
+        clearance: f32,
     ) -> PyResult<Records<'py>> {
         let pair = self.pair(other, "segment")?;
-        asked.each(entries(&pair), |row: [f32; 24], scratch| {
+        rows.each(entries(&pair), |row: [f32; 24], scratch| {
             let (from, to) = (pose(&row[..12]), pose(&row[12..]));
             let motion = match is_straight {
                 true => Motion::straight(from, to),
                 false => Motion::screw(from, to)?,
             };
-            pair[0].first_contact_of(&pair[1], &motion, keep, Budget::EXACT, scratch)
+            pair[0].first_contact_of(&pair[1], &motion, clearance, Budget::EXACT, scratch)
         })
     }
 }

@@ -19,8 +19,8 @@ static FIRST: OnceLock<u32> = OnceLock::new();
 /// The pools of its children, and of theirs.
 static OF_CHILDREN: OnceLock<Box<Child>> = OnceLock::new();
 
-/// Between two looks for Ctrl-C, while other threads work.
-const LOOK: Duration = Duration::from_millis(50);
+/// Time between two looks for Ctrl-C, while other threads work.
+const SIGNAL_POLL: Duration = Duration::from_millis(50);
 
 struct Child {
     process: u32,
@@ -71,7 +71,7 @@ pub fn on_all_cores<T: Send>(work: impl FnOnce() -> T + Send) -> PyResult<T> {
 /// Ctrl-C; the work ended without a result.
 fn wait<T>(result: &Receiver<T>) -> PyResult<T> {
     loop {
-        match result.recv_timeout(LOOK) {
+        match result.recv_timeout(SIGNAL_POLL) {
             Ok(result) => return Ok(result),
             Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
             Err(RecvTimeoutError::Disconnected) => {
@@ -81,11 +81,11 @@ fn wait<T>(result: &Receiver<T>) -> PyResult<T> {
     }
 }
 
-/// Does work that takes all cores with looks for Ctrl-C. The work looks itself where it runs on the
-/// caller's thread. Else it gets the word to end by `stop`, and its end is waited for.
+/// Does work that takes all cores, until Ctrl-C. On the caller's thread the work looks for Ctrl-C
+/// itself. On a pool this function looks, sets `stop`, and waits until the work has ended.
 ///
 /// # Errors
-/// Ctrl-C, where the work did not look; no threads can be had.
+/// Ctrl-C, if the work runs on a pool; no threads can be had.
 pub fn on_all_cores_until_stopped<T: Send>(
     stop: &AtomicBool,
     work: impl FnOnce() -> T + Send,
@@ -99,12 +99,12 @@ pub fn on_all_cores_until_stopped<T: Send>(
     })
 }
 
-/// Does work that cannot look for Ctrl-C itself, on threads of its own. After Ctrl-C they are left
-/// alone: the work gets the word to end by its flag, and ends when it looks there.
+/// Does work that cannot look for Ctrl-C itself, on threads of its own. Ctrl-C sets the work's
+/// flag, and this function returns at once. The threads run on until the work looks at its flag.
 ///
 /// # Errors
 /// Ctrl-C; no threads can be had.
-pub fn aside<T: Send + 'static>(
+pub fn run_detached<T: Send + 'static>(
     work: impl FnOnce(&AtomicBool) -> PyResult<T> + Send + 'static,
 ) -> PyResult<T> {
     let pool = ThreadPoolBuilder::new().build();
@@ -113,7 +113,7 @@ pub fn aside<T: Send + 'static>(
     let to_stop = Arc::clone(&stop);
     pool.spawn(move || {
         let result = catch_unwind(AssertUnwindSafe(|| work(&to_stop)));
-        // Nobody waits after Ctrl-C.
+        // After Ctrl-C there is no receiver.
         drop(done.send(result));
     });
     let result = wait(&result).inspect_err(|_| stop.store(true, Ordering::Relaxed))?;

@@ -20,18 +20,29 @@ pub struct Put<'a> {
     record: &'a mut [u8],
     /// Bytes that are written.
     end: usize,
+    /// The largest alignment of a field.
+    align: usize,
+}
+
+/// Writes the record of an answer, which fills all of `record`.
+pub fn write(answer: &impl Answer, record: &mut [u8]) {
+    let mut put = Put::new(record);
+    answer.put(&mut put);
+    // A longer record would leave zeros that look like an answer.
+    debug_assert_eq!(put.end.next_multiple_of(put.align), put.record.len());
 }
 
 impl<'a> Put<'a> {
     /// Writes from the beginning of `record`.
-    pub fn new(record: &'a mut [u8]) -> Self {
-        Self { record, end: 0 }
+    fn new(record: &'a mut [u8]) -> Self {
+        Self { record, end: 0, align: 1 }
     }
 
     /// Bytes of a field of `T`, or of several.
     fn bytes<T>(&mut self, bytes: &[u8]) -> &mut Self {
         let begin = self.end.next_multiple_of(align_of::<T>());
         self.end = begin + bytes.len();
+        self.align = self.align.max(align_of::<T>());
         self.record[begin..self.end].copy_from_slice(bytes);
         self
     }
@@ -51,6 +62,13 @@ impl<'a> Put<'a> {
 
     fn interval(&mut self, Interval { lower, upper }: Interval) -> &mut Self {
         self.floats(&[lower, upper])
+    }
+
+    /// The flag `is_certain` of `all_within`, which Python sets. Records of `nearest` have none.
+    fn flag_of_list(&mut self) {
+        if self.end.next_multiple_of(self.align) < self.record.len() {
+            self.byte(0);
+        }
     }
 
     /// A number of the input file, or -1.
@@ -130,7 +148,8 @@ impl<A: Answer> Answer for Vec<A> {
     fn put(&self, put: &mut Put<'_>) {
         let size = put.record.len() / self.len().max(1);
         let records = put.record.chunks_mut(size.max(1));
-        self.iter().zip(records).for_each(|(answer, record)| answer.put(&mut Put::new(record)));
+        self.iter().zip(records).for_each(|(answer, record)| write(answer, record));
+        put.end = put.record.len();
     }
 }
 
@@ -185,9 +204,9 @@ records! {
     Decided<[u32; 2]>: |found, put| put.verdict(found.verdict).numbers(found.witness)
         .end_of(found.verdict, found.work);
     Neighbor: |near, put| put.interval(near.distance()).floats(&near.point())
-        .number(Some(near.triangle()));
+        .number(Some(near.triangle())).flag_of_list();
     CurveNeighbor: |near, put| put.interval(near.distance()).floats(&near.point())
-        .segment(Some(near.segment()));
+        .segment(Some(near.segment())).flag_of_list();
     FirstHit: |found, put| put
         .byte(match (found.is_clear(), found.ended) {
             (true, _) => 0,

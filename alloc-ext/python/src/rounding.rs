@@ -1,12 +1,12 @@
-//! What is proved about rounded segments and rays, as it is of those that the caller gave.
+//! Carries proofs about rounded segments and rays over to those that the caller gave.
 
 use meshsweep_core::{Ended, FirstHit, Interval, QueryError, Work};
 
-/// Balls that are laid along a segment at most.
-const MOST_BALLS: usize = 64;
+/// Balls along a segment, at most.
+const MAX_BALLS: usize = 64;
 
-/// How far rounding moved a point of a row's segment at most. Rows have both points, and how far
-/// each was moved.
+/// An upper bound of how far rounding moved a point of a row's segment. Rows have both points, and
+/// an upper bound for each.
 pub fn moved(row: &[f32]) -> f64 {
     row.iter().skip(6).take(2).fold(0.0, |most, &off| most.max(off.into()))
 }
@@ -14,7 +14,7 @@ pub fn moved(row: &[f32]) -> f64 {
 /// A segment, or the part of a ray before it is behind the model.
 pub struct Way {
     pub ends: [[f32; 3]; 2],
-    /// No point is farther than this from where the caller wants it.
+    /// No point is farther than this from the caller's.
     pub moved: f64,
     /// The parameter at the end.
     until: f64,
@@ -39,7 +39,7 @@ impl Way {
         let radius = 0.5 * norm(minus(high, low)) + f64::from(error);
         let centre = core::array::from_fn(|k| 0.5 * (low[k] + high[k]));
         let pace = norm(way) - off_way;
-        // The part of a billion more is for the rounding of these sums.
+        // The factor covers the rounding of these sums.
         let until = (radius + norm(minus(centre, a)) + off) / pace * (1.0 + 1e-9);
         let end = along(a, way, until);
         let rounded = end.map(|x| x as f32);
@@ -52,10 +52,10 @@ impl Way {
         }
     }
 
-    /// A clear first hit of the rounded way, if only this part of the way as given is proved to be
-    /// clear.
-    pub fn undecided(&self, mut clear: FirstHit, part: f64) -> FirstHit {
-        let lower = ((part * self.until) as f32).next_down().max(0.0);
+    /// A clear first hit of the rounded way, where only this fraction of the caller's way is proved
+    /// to be clear.
+    pub fn undecided(&self, mut clear: FirstHit, fraction: f64) -> FirstHit {
+        let lower = ((fraction * self.until) as f32).next_down().max(0.0);
         clear.t = Interval::new(lower, if self.is_ray { f32::INFINITY } else { 1.0 });
         clear.ended = Ended::Resolution;
         clear
@@ -71,12 +71,12 @@ impl Way {
         mut clear: FirstHit,
         distance: impl FnMut([f32; 3]) -> Result<(f32, Work), QueryError>,
     ) -> Result<FirstHit, QueryError> {
-        let (part, work) = self.cleared(distance)?;
+        let (fraction, work) = self.cleared(distance)?;
         clear.work = clear.work.and(work);
-        Ok(if part < 1.0 { self.undecided(clear, part) } else { clear })
+        Ok(if fraction < 1.0 { self.undecided(clear, fraction) } else { clear })
     }
 
-    /// The part of the way that balls prove to be clear, 1 if it is all, and the work.
+    /// The fraction of the way that balls prove to be clear, and the work.
     ///
     /// # Errors
     /// Those of the distance.
@@ -86,9 +86,9 @@ impl Way {
     ) -> Result<(f64, Work), QueryError> {
         let [a, b] = self.ends.map(wide);
         let (way, rounding) = (minus(b, a), 1e-12 * (norm(a) + norm(b)));
-        let (length, mut part, mut work) = (norm(way), 0.0, Work::NONE);
-        for _ in 0..MOST_BALLS {
-            let at = along(a, way, part);
+        let (length, mut fraction, mut work) = (norm(way), 0.0, Work::NONE);
+        for _ in 0..MAX_BALLS {
+            let at = along(a, way, fraction);
             let centre = at.map(|x| x as f32);
             let (near, more) = distance(centre)?;
             work = work.and(more);
@@ -97,12 +97,12 @@ impl Way {
             if free <= 0.0 {
                 break;
             }
-            if free >= (1.0 - part) * length {
+            if free >= (1.0 - fraction) * length {
                 return Ok((1.0, work));
             }
-            part += free / length;
+            fraction += free / length;
         }
-        Ok((part.min(1.0_f64.next_down()), work))
+        Ok((fraction.min(1.0_f64.next_down()), work))
     }
 }
 

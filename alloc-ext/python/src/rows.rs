@@ -1,8 +1,8 @@
-//! Asks about many rows of numbers, on all cores and without the interpreter's lock.
+//! Answers questions about many rows of numbers, on all cores and without the interpreter's lock.
 
 use crate::error::{MeshsweepError, of_query};
 use crate::pool::on_all_cores;
-use crate::record::{Answer, Put};
+use crate::record::{Answer, write};
 use meshsweep_core::{QueryError, ScratchEntry};
 use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyMemoryError;
@@ -15,43 +15,42 @@ use std::collections::TryReserveError;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Rows that a thread takes at once, at most: enough to make the cost of taking them vanish.
-const AT_ONCE: usize = 512;
+/// Rows of a task, at most. With so many the cost of scheduling a task is negligible.
+const ROWS_PER_TASK: usize = 512;
 
-/// A thread takes no more of a block at once than this part of its share: then threads that end
-/// early find something to do.
-const OF_SHARE: usize = 4;
+/// A block is split into at least so many tasks for each thread, if it has the rows. A thread that
+/// is done early then takes tasks of the others.
+const TASKS_PER_THREAD: usize = 4;
 
-/// Room for answers to a row at first.
-const ROOM: usize = 64;
+/// Records that the memory for a row's answers has at first.
+const FIRST_CAPACITY: usize = 64;
 
-/// Rows of the largest block: of some questions the answers to a block are twice in memory.
-const MOST: usize = 1 << 20;
+/// Rows of the largest block. The answers to a block of `lists` are in memory twice.
+const MAX_BLOCK_ROWS: usize = 1 << 20;
 
-/// A block of rows that takes less makes the next one twice as large.
-const SHORT: Duration = Duration::from_millis(50);
+/// If a block takes less time, the next one has twice as many rows.
+const GROW_BELOW: Duration = Duration::from_millis(50);
 
-/// A block of rows that takes less makes the next one sixteen times as large.
-const MOMENT: Duration = Duration::from_micros(500);
+/// If a block takes less time, the next one has sixteen times as many rows.
+const LEAP_BELOW: Duration = Duration::from_micros(500);
 
-/// A block of rows that takes more makes the next one half as large.
-const LONG: Duration = Duration::from_millis(400);
+/// If a block takes more time, the next one has half as many rows.
+const SHRINK_ABOVE: Duration = Duration::from_millis(400);
 
 /// Bytes of records.
 pub type Records<'py> = Bound<'py, PyArray1<u8>>;
 
-/// The rows of a contiguous array that a question is asked of, and the bytes of a record of its
-/// answers.
+/// The rows of a question, a contiguous array, and the bytes of a record of its answers.
 #[derive(FromPyObject)]
-pub struct Asked<'py>(PyReadonlyArray2<'py, f32>, usize);
+pub struct QueryRows<'py>(PyReadonlyArray2<'py, f32>, usize);
 
 /// What a search for all of something has found.
 pub struct Found {
-    /// Of the caller's memory so much is in use.
+    /// Answers that are in the caller's memory.
     pub stored: usize,
-    /// This did not fit.
+    /// Answers that did not fit.
     pub dropped: u32,
-    /// Whether it is proved that nothing else is to be found.
+    /// Whether it is proved that there are no other answers.
     pub is_complete: bool,
 }
 
@@ -102,8 +101,8 @@ impl<'py> IntoPyObject<'py> for Lists<'py> {
     }
 }
 
-impl<'py> Asked<'py> {
-    /// Of answers with `count` records each.
+impl<'py> QueryRows<'py> {
+    /// The same rows, for answers of `count` records each.
     pub fn with_each(self, count: usize) -> Self {
         Self(self.0, self.1.saturating_mul(count))
     }
@@ -132,7 +131,7 @@ impl<'py> Asked<'py> {
     ///
     /// # Errors
     /// They have another width.
-    pub fn rows<const N: usize>(&self) -> PyResult<&[[f32; N]]> {
+    pub fn of_width<const N: usize>(&self) -> PyResult<&[[f32; N]]> {
         match (self.0.as_slice()?.as_chunks::<N>(), self.0.shape()) {
             ((rows, []), &[_, width]) if width == N => Ok(rows),
             _ => Err(MeshsweepError::new_err(format!("rows of {N} numbers are wanted"))),
@@ -148,7 +147,7 @@ impl<'py> Asked<'py> {
         entries: usize,
         one: impl Fn([f32; N], &mut [ScratchEntry]) -> Result<A, QueryError> + Sync,
     ) -> PyResult<Records<'py>> {
-        self.rows::<N>()?;
+        self.of_width::<N>()?;
         self.each_wide(entries, |row, scratch| one(array::from_fn(|k| row[k]), scratch))
     }
 
@@ -165,18 +164,19 @@ impl<'py> Asked<'py> {
         let (count, width) = (self.0.shape()[0], self.0.shape()[1]);
         let mut records = self.zeroed()?;
         in_blocks(self.py(), count, current_num_threads(), |Range { start, end }| {
-            let at_once = at_once(end - start);
-            let rows = floats[start * width..end * width].par_chunks(at_once * width);
-            let pieces = rows.zip(records[start * size..end * size].par_chunks_mut(at_once * size));
-            let refused = pieces.enumerate().find_map_first(|(piece, (rows, records))| {
+            let task_rows = task_rows(end - start);
+            let rows = floats[start * width..end * width].par_chunks(task_rows * width);
+            let tasks =
+                rows.zip(records[start * size..end * size].par_chunks_mut(task_rows * size));
+            let refused = tasks.enumerate().find_map_first(|(task, (rows, records))| {
                 let mut scratch = vec![ScratchEntry::EMPTY; entries];
                 let mut pairs = rows.chunks(width).zip(records.chunks_mut(size)).enumerate();
                 pairs.find_map(|(index, (row, record))| match one(row, &mut scratch) {
                     Ok(answer) => {
-                        answer.put(&mut Put::new(record));
+                        write(&answer, record);
                         None
                     }
-                    Err(error) => Some((start + piece * at_once + index, error)),
+                    Err(error) => Some((start + task * task_rows + index, error)),
                 })
             });
             refused.map_or(Ok(()), |refused| Err(refused.into()))
@@ -184,8 +184,9 @@ impl<'py> Asked<'py> {
         Ok(PyArray1::from_vec(self.py(), records))
     }
 
-    /// Answers each row with any number of records. `one` gets memory for some answers, all of
-    /// them `empty`, and scratch memory of so many entries. If not all answers fit, it gets more.
+    /// Answers each row with any number of records. `one` gets memory for some answers and scratch
+    /// memory of so many entries. If the answers do not fit, `one` is called again with memory for
+    /// all of them. The memory holds `empty` or answers to earlier rows.
     ///
     /// # Errors
     /// As [`each`](Self::each).
@@ -195,42 +196,42 @@ impl<'py> Asked<'py> {
         empty: A,
         one: impl Fn([f32; N], &mut [A], &mut [ScratchEntry]) -> Result<Found, QueryError> + Sync,
     ) -> PyResult<Lists<'py>> {
-        let (rows, size) = (self.rows::<N>()?, self.1);
+        let (rows, size) = (self.of_width::<N>()?, self.1);
         let (mut begins, mut records, mut is_complete) = (vec![0], Vec::new(), Vec::new());
         in_blocks(self.py(), rows.len(), current_num_threads(), |block| {
-            let (begin, at_once) = (block.start, at_once(block.len()));
-            let piece = |(piece, rows): (usize, &[[f32; N]])| {
+            let (begin, task_rows) = (block.start, task_rows(block.len()));
+            let task = |(task, rows): (usize, &[[f32; N]])| {
                 let (mut ends, mut records) = (Vec::new(), Vec::new());
                 let mut scratch = vec![ScratchEntry::EMPTY; entries];
-                let mut room = vec![empty; ROOM];
+                let mut answers = vec![empty; FIRST_CAPACITY];
                 for (index, row) in rows.iter().enumerate() {
-                    let mut ask = |room: &mut Vec<A>| {
-                        let found = one(*row, room, &mut scratch);
-                        found.map_err(|error| Failed::Row(begin + piece * at_once + index, error))
+                    let mut ask = |answers: &mut Vec<A>| {
+                        let found = one(*row, answers, &mut scratch);
+                        found.map_err(|error| Failed::Row(begin + task * task_rows + index, error))
                     };
-                    let mut found = ask(&mut room)?;
+                    let mut found = ask(&mut answers)?;
                     if found.dropped > 0 {
-                        let more = found.stored + found.dropped as usize - room.len();
-                        grow(&mut room, more, empty)?;
-                        found = ask(&mut room)?;
+                        let more = found.stored + found.dropped as usize - answers.len();
+                        grow(&mut answers, more, empty)?;
+                        found = ask(&mut answers)?;
                     }
-                    for answer in room.iter().take(found.stored) {
+                    for answer in answers.iter().take(found.stored) {
                         let begin = records.len();
                         grow(&mut records, size, 0)?;
-                        answer.put(&mut Put::new(&mut records[begin..]));
+                        write(answer, &mut records[begin..]);
                     }
                     ends.push((records.len(), found.is_complete));
                 }
                 Ok((ends, records))
             };
-            let pieces: Vec<_> = rows[block].par_chunks(at_once).enumerate().map(piece).collect();
-            let pieces = pieces.into_iter().collect::<Result<Vec<(Vec<_>, Vec<u8>)>, Failed>>()?;
-            for (ends, of_piece) in pieces {
+            let tasks: Vec<_> = rows[block].par_chunks(task_rows).enumerate().map(task).collect();
+            let tasks = tasks.into_iter().collect::<Result<Vec<(Vec<_>, Vec<u8>)>, Failed>>()?;
+            for (ends, of_task) in tasks {
                 let before = records.len();
                 begins.extend(ends.iter().map(|end| ((before + end.0) / size) as u64));
                 is_complete.extend(ends.iter().map(|end| end.1));
-                records.try_reserve(of_piece.len())?;
-                records.extend(of_piece);
+                records.try_reserve(of_task.len())?;
+                records.extend(of_task);
             }
             Ok(())
         })?;
@@ -242,16 +243,16 @@ impl<'py> Asked<'py> {
     }
 }
 
-/// Adds so many copies of a value.
+/// Appends `more` copies of a value.
 fn grow<T: Copy>(values: &mut Vec<T>, more: usize, value: T) -> Result<(), Failed> {
     values.try_reserve(more)?;
     values.resize(values.len() + more, value);
     Ok(())
 }
 
-/// Rows of a block that a thread takes at once.
-fn at_once(rows: usize) -> usize {
-    (rows / (OF_SHARE * current_num_threads())).clamp(1, AT_ONCE)
+/// Rows of a task, of a block with so many rows.
+fn task_rows(rows: usize) -> usize {
+    (rows / (TASKS_PER_THREAD * current_num_threads())).clamp(1, ROWS_PER_TASK)
 }
 
 /// Does the work of successive blocks of rows on all cores, and looks for Ctrl-C between them. The
@@ -265,17 +266,17 @@ pub fn in_blocks(
     first: usize,
     mut work: impl FnMut(Range<usize>) -> Result<(), Failed> + Send,
 ) -> PyResult<()> {
-    let (mut begin, mut most) = (0, first);
+    let (mut begin, mut size) = (0, first);
     while begin < count {
-        let block = begin..count.min(begin + most);
+        let block = begin..count.min(begin + size);
         begin = block.end;
         let before = Instant::now();
         py.detach(|| on_all_cores(|| work(block)))??;
         py.check_signals()?;
         match before.elapsed() {
-            took if took < MOMENT && 16 * most <= MOST => most *= 16,
-            took if took < SHORT && 2 * most <= MOST => most *= 2,
-            took if took > LONG => most = (most / 2).max(first),
+            took if took < LEAP_BELOW && 16 * size <= MAX_BLOCK_ROWS => size *= 16,
+            took if took < GROW_BELOW && 2 * size <= MAX_BLOCK_ROWS => size *= 2,
+            took if took > SHRINK_ABOVE => size = (size / 2).max(first),
             _ => (),
         }
     }

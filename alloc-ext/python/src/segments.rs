@@ -3,7 +3,7 @@
 use crate::error::QueryError;
 use crate::model::{Model, budget};
 use crate::rounding::moved;
-use crate::rows::{Asked, Found, Lists, Records};
+use crate::rows::{Found, Lists, QueryRows, Records};
 use meshsweep_core::{AllHits, Facing, TriangleHit};
 use pyo3::prelude::*;
 
@@ -28,14 +28,14 @@ impl Model {
     /// Rows have both points, and how far rounding moved each.
     fn first_hit<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         is_ray: bool,
         facing: u8,
         steps: Option<u32>,
     ) -> PyResult<Records<'py>> {
         let (facing, budget) = (facing_of(facing)?, budget((0.0, 0.0, steps)));
         let engine = self.engine(facing)?;
-        asked.each(engine.entries(), |row: [f32; 8], scratch| {
+        rows.each(engine.entries(), |row: [f32; 8], scratch| {
             let found = engine.first_hit(ends(&row), is_ray, facing, budget, scratch)?;
             match found.is_clear() && moved(&row) > 0.0 {
                 true => engine.as_given(&row, is_ray, found, budget, scratch),
@@ -44,12 +44,17 @@ impl Model {
         })
     }
 
-    fn all_hits<'py>(&self, asked: Asked<'py>, is_ray: bool, facing: u8) -> PyResult<Lists<'py>> {
+    fn all_hits<'py>(
+        &self,
+        rows: QueryRows<'py>,
+        is_ray: bool,
+        facing: u8,
+    ) -> PyResult<Lists<'py>> {
         let facing = facing_of(facing)?;
         let engine = self.engine(facing)?;
-        asked.lists(engine.entries(), TriangleHit::EMPTY, |row: [f32; 6], room, scratch| {
+        rows.lists(engine.entries(), TriangleHit::EMPTY, |row: [f32; 6], answers, scratch| {
             let AllHits { stored, dropped, is_complete, .. } =
-                engine.all_hits(ends(&row), is_ray, facing, room, scratch)?;
+                engine.all_hits(ends(&row), is_ray, facing, answers, scratch)?;
             Ok(Found { stored, dropped, is_complete })
         })
     }

@@ -2,29 +2,37 @@
 
 use crate::error::of_query;
 use crate::model::{Model, budget};
-use crate::rows::{Asked, Records};
+use crate::rows::{QueryRows, Records};
 use crate::segments::ends;
-use meshsweep_core::{Budget, Bvh, BvhWithSdf, Ended, FirstHit, QueryError, ScratchEntry, Solid};
+use meshsweep_core::{
+    Budget, Bvh, BvhWithSdf, Decided, Ended, FirstHit, QueryError, ScratchEntry, Solid,
+};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 
-/// The corners of a row, and what stands behind them.
+/// The corners of a row, and the number after them.
 fn corners(row: &[f32]) -> (&[[f32; 3]], f32) {
     let (corners, rest) = row.as_chunks::<3>();
     (corners, rest.first().copied().unwrap_or_default())
 }
 
-/// A box tree, or a field that is asked first.
-pub enum Asks<'a> {
-    Tree(Bvh<'a>),
-    FieldFirst(BvhWithSdf<'a>),
+/// A box tree, perhaps with a distance field, which is asked first.
+pub struct SolidQueries<'a> {
+    pub tree: Bvh<'a>,
+    pub with_field: Option<BvhWithSdf<'a>>,
 }
 
-impl Asks<'_> {
-    fn entries(&self) -> usize {
-        match self {
-            Self::Tree(tree) => tree.scratch_entries(),
-            Self::FieldFirst(both) => both.tree().scratch_entries(),
+impl SolidQueries<'_> {
+    fn within(
+        &self,
+        solid: &Solid<'_>,
+        distance: f32,
+        budget: Budget,
+        scratch: &mut [ScratchEntry],
+    ) -> Result<Decided<u32>, QueryError> {
+        match &self.with_field {
+            None => self.tree.solid_within(solid, distance, budget, scratch),
+            Some(both) => both.solid_within(solid, distance, budget, scratch),
         }
     }
 
@@ -41,21 +49,21 @@ impl Asks<'_> {
         budget: Budget,
         scratch: &mut [ScratchEntry],
     ) -> Result<FirstHit, QueryError> {
-        let mut ask = |radius| {
+        let mut with_radius = |radius| {
             let (from, to) = (Solid::new(from, radius)?, Solid::new(to, radius)?);
-            match self {
-                Self::Tree(tree) => tree.solid_first_contact(&from, &to, budget, scratch),
-                Self::FieldFirst(both) => both.solid_first_contact(&from, &to, budget, scratch),
+            match &self.with_field {
+                None => self.tree.solid_first_contact(&from, &to, budget, scratch),
+                Some(both) => both.solid_first_contact(&from, &to, budget, scratch),
             }
         };
         if moved <= 0.0 && f64::from(radius as f32) == radius {
-            return ask(radius as f32);
+            return with_radius(radius as f32);
         }
         // The solid is within the larger one, and holds the smaller one, at every instant.
-        let mut found = ask(((radius + moved) as f32).next_up())?;
+        let mut found = with_radius(((radius + moved) as f32).next_up())?;
         if !found.is_clear() {
             let less = ((radius - moved) as f32).next_down();
-            let inner = if less >= 0.0 { Some(ask(less)?) } else { None };
+            let inner = if less >= 0.0 { Some(with_radius(less)?) } else { None };
             let is_met = |inner: &FirstHit| inner.hit.is_some() && inner.ended == Ended::Exact;
             let inner = inner.filter(is_met);
             found.t.upper = inner.map_or(1.0, |inner| inner.t.upper);
@@ -87,11 +95,9 @@ fn placed(tool: &[[f32; 3]], place: [f32; 3]) -> (Vec<[f32; 3]>, f64) {
 }
 
 impl Model {
-    fn asks(&self, field_first: bool) -> PyResult<Asks<'_>> {
-        Ok(match field_first {
-            true => Asks::FieldFirst(self.tree_with_field("segment")?),
-            false => Asks::Tree(*self.tree("segment")?),
-        })
+    fn solid_queries(&self, field_first: bool) -> PyResult<SolidQueries<'_>> {
+        let with_field = field_first.then(|| self.tree_with_field("segment")).transpose()?;
+        Ok(SolidQueries { tree: *self.tree("segment")?, with_field })
     }
 }
 
@@ -100,12 +106,12 @@ impl Model {
     /// Rows have the corners.
     fn solid_distance<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         radius: f32,
         limits: (f32, f32, Option<u32>),
     ) -> PyResult<Records<'py>> {
         let (tree, budget) = (self.tree("segment")?, budget(limits));
-        asked.each_wide(tree.scratch_entries(), |row, scratch| {
+        rows.each_wide(tree.scratch_entries(), |row, scratch| {
             tree.solid_distance(&Solid::new(corners(row).0, radius)?, budget, scratch)
         })
     }
@@ -113,19 +119,15 @@ impl Model {
     /// Rows have the corners and a distance.
     fn solid_within<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         radius: f32,
         steps: Option<u32>,
         field_first: bool,
     ) -> PyResult<Records<'py>> {
-        let (asks, budget) = (self.asks(field_first)?, budget((0.0, 0.0, steps)));
-        asked.each_wide(asks.entries(), |row, scratch| {
+        let (queries, budget) = (self.solid_queries(field_first)?, budget((0.0, 0.0, steps)));
+        rows.each_wide(queries.tree.scratch_entries(), |row, scratch| {
             let (corners, distance) = corners(row);
-            let solid = Solid::new(corners, radius)?;
-            match &asks {
-                Asks::Tree(tree) => tree.solid_within(&solid, distance, budget, scratch),
-                Asks::FieldFirst(both) => both.solid_within(&solid, distance, budget, scratch),
-            }
+            queries.within(&Solid::new(corners, radius)?, distance, budget, scratch)
         })
     }
 
@@ -133,16 +135,16 @@ impl Model {
     /// end, and how far rounding moved one of them at most.
     fn solid_first_contact<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         radius: f64,
         steps: Option<u32>,
         field_first: bool,
     ) -> PyResult<Records<'py>> {
-        let (asks, budget) = (self.asks(field_first)?, budget((0.0, 0.0, steps)));
-        asked.each_wide(asks.entries(), |row, scratch| {
+        let (queries, budget) = (self.solid_queries(field_first)?, budget((0.0, 0.0, steps)));
+        rows.each_wide(queries.tree.scratch_entries(), |row, scratch| {
             let (corners, moved) = corners(row);
             let (from, to) = corners.split_at(corners.len() / 2);
-            asks.first_contact([from, to], radius, moved.into(), budget, scratch)
+            queries.first_contact([from, to], radius, moved.into(), budget, scratch)
         })
     }
 
@@ -150,18 +152,18 @@ impl Model {
     /// corners, others have both ends of a move, and how far rounding moved them and the corners.
     fn first_contact<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         tool: PyReadonlyArray2<'py, f32>,
         radius: f64,
         steps: Option<u32>,
     ) -> PyResult<Records<'py>> {
-        let (asks, budget) = (self.asks(false)?, budget((0.0, 0.0, steps)));
+        let (queries, budget) = (self.solid_queries(false)?, budget((0.0, 0.0, steps)));
         let tool = tool.as_slice()?.as_chunks::<3>().0;
         Solid::new(tool, radius as f32).map_err(|error| of_query(None, error))?;
-        asked.each(asks.entries(), |row: [f32; 7], scratch| {
+        rows.each(queries.tree.scratch_entries(), |row: [f32; 7], scratch| {
             let [(from, off), (to, off_there)] = ends(&row).map(|place| placed(tool, place));
             let moved = off.max(off_there) + f64::from(row[6]);
-            asks.first_contact([&from, &to], radius, moved, budget, scratch)
+            queries.first_contact([&from, &to], radius, moved, budget, scratch)
         })
     }
 }

@@ -4,7 +4,7 @@ use crate::build::{named, unit_named};
 use crate::error::{BuildError, in_python, of_build, of_query, refused};
 use crate::mesh::Given;
 use crate::model::Model;
-use crate::pool::aside;
+use crate::pool::run_detached;
 use meshsweep::builder::{Builder, For};
 use meshsweep::curve::Polyline;
 use meshsweep::trade as of;
@@ -31,7 +31,7 @@ struct Instructions {
 #[derive(IntoPyObject)]
 struct Row {
     structure: String,
-    dials: String,
+    budget: String,
     build: String,
     error: Option<f64>,
     median_error: Option<f64>,
@@ -43,7 +43,7 @@ struct Row {
     is_best: bool,
 }
 
-/// What was measured, what was not built and why, and the part of needles.
+/// What was measured, what was not built and why, and the fraction of triangles that are needles.
 #[derive(IntoPyObject)]
 pub struct Measured {
     rows: Vec<Row>,
@@ -98,7 +98,7 @@ pub fn trade(py: Python<'_>, wanted: Wanted<'_>) -> PyResult<Measured> {
     let trade = wanted.measured(py)?;
     let (best, missing) = (best(&trade), trade.missing.iter());
     Ok(Measured {
-        rows: trade.rows.iter().map(|row| told(row, &best)).collect(),
+        rows: trade.rows.iter().map(|row| row_of(row, &best)).collect(),
         not_built: missing
             .map(|missing| (missing.recipe.name(), in_python(&missing.reason)))
             .collect(),
@@ -121,7 +121,7 @@ pub fn choose(py: Python<'_>, wanted: Wanted<'_>, device: Device) -> PyResult<(M
     let unmet = |unmet: of::Unmet| refused(&unmet);
     let of::Choice { first, second, built, .. } = limits.choose(&trade).map_err(unmet)?;
     let best = best(&trade);
-    let (first, second) = (told(&first, &best), second.map(|second| told(&second, &best)));
+    let (first, second) = (row_of(&first, &best), second.map(|second| row_of(&second, &best)));
     let chosen = Chosen { first, second, needles: trade.needles };
     Ok((Model::built(built)?, chosen))
 }
@@ -150,7 +150,7 @@ impl Wanted<'_> {
         };
         let (mesh, unit) = (mesh.taken()?, unit_named(unit.as_deref())?);
         let measure = move |stop: &AtomicBool| {
-            let told = (stop, progress.as_ref());
+            let reporting = (stop, progress.as_ref());
             if mesh.is_curve() {
                 if word == For::Segment {
                     return Err(BuildError::new_err("for_: curves are measured for closest"));
@@ -158,8 +158,8 @@ impl Wanted<'_> {
                 let lines = mesh.polylines(closed)?;
                 let points = kind.map_or(own, |kind| of::points_of_curves(&lines, kind, count));
                 let settings = settings_of_curves(&lines, kind)?;
-                return until_stopped(told, &points, |tell| {
-                    of::measure_curves(&lines, &points, &settings, tell)
+                return until_stopped(reporting, &points, |report| {
+                    of::measure_curves(&lines, &points, &settings, report)
                 });
             }
             let source = mesh.source(unit)?;
@@ -174,11 +174,11 @@ impl Wanted<'_> {
                 For::Segment => of::standard_of_segments(),
                 _ => of::standard(of::diagonal(mesh), mesh.triangles.len(), kind),
             };
-            until_stopped(told, &points, |tell| {
-                of::measure(&source, &loaded, &points, &settings, tell)
+            until_stopped(reporting, &points, |report| {
+                of::measure(&source, &loaded, &points, &settings, report)
             })
         };
-        py.detach(|| aside(measure))
+        py.detach(|| run_detached(measure))
     }
 }
 
@@ -190,36 +190,37 @@ fn settings_of_curves(lines: &[Polyline], kind: Option<Points>) -> PyResult<Vec<
     Ok(of::standard_of_curves(of::diagonal_of_curves(lines), is_fence, kind))
 }
 
-/// Is told how many steps are done, and of how many.
-type Tell<'a> = dyn Fn(usize, usize) + Sync + 'a;
+/// Gets the number of steps that are done, and that of all steps.
+type Report<'a> = dyn Fn(usize, usize) + Sync + 'a;
 
-/// Measures at points, and tells `progress`. Its exception ends the work, and so does `stop`.
+/// Measures at points, and reports to `progress`. An exception of `progress` ends the work, and so
+/// does `stop`.
 fn until_stopped(
     (stop, progress): (&AtomicBool, Option<&Py<PyAny>>),
     points: &[[f32; 3]],
-    measure: impl FnOnce(&Tell<'_>) -> Result<Trade, QueryError>,
+    measure: impl FnOnce(&Report<'_>) -> Result<Trade, QueryError>,
 ) -> PyResult<Trade> {
     if points.is_empty() {
         return Err(BuildError::new_err("there is nothing to ask at"));
     }
     let raised = Mutex::new(None);
-    let tell = |done: usize, of: usize| {
-        let told = Python::attach(|py| {
+    let report = |done: usize, of: usize| {
+        let reported = Python::attach(|py| {
             if stop.load(Ordering::Relaxed) {
                 return Err(PyKeyboardInterrupt::new_err("the trade is not complete"));
             }
-            let told = ("measuring", done as f64 / of.max(1) as f64);
-            progress.map_or(Ok(()), |progress| progress.call1(py, told).map(drop))
+            let stage = ("measuring", done as f64 / of.max(1) as f64);
+            progress.map_or(Ok(()), |progress| progress.call1(py, stage).map(drop))
         });
-        if let Err(error) = told {
+        if let Err(error) = reported {
             if let Ok(mut raised) = raised.lock() {
                 raised.get_or_insert(error);
             }
-            // The measurements have no other way out. No panic is reported.
+            // The measurements return no error, so a panic ends them. `resume_unwind` reports none.
             resume_unwind(Box::new("stopped"));
         }
     };
-    let measured = catch_unwind(AssertUnwindSafe(|| measure(&tell)));
+    let measured = catch_unwind(AssertUnwindSafe(|| measure(&report)));
     match (raised.into_inner(), measured) {
         (Ok(Some(error)), _) => Err(error),
         (_, Ok(measured)) => measured.map_err(|error| of_query(None, error)),
@@ -232,7 +233,7 @@ fn best(trade: &Trade) -> Vec<&of::Row> {
     of::pareto(&trade.rows).into_iter().filter_map(|index| trade.rows.get(index)).collect()
 }
 
-fn told(row: &of::Row, best: &[&of::Row]) -> Row {
+fn row_of(row: &of::Row, best: &[&of::Row]) -> Row {
     let boards = Board::ALL.iter().zip(row.boards).zip(row.stack);
     let instructions = boards.filter_map(|((board, found), stack)| {
         let found = found?;
@@ -247,7 +248,7 @@ fn told(row: &of::Row, best: &[&of::Row]) -> Row {
     });
     Row {
         structure: row.name(),
-        dials: row.setting.dials(),
+        budget: row.setting.dials(),
         build: row.build(),
         error: row.guaranteed.map(|spread| spread.most),
         median_error: row.guaranteed.map(|spread| spread.median),

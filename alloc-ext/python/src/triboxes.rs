@@ -6,7 +6,7 @@ use crate::model::{Model, budget};
 use crate::pairs::pose;
 use crate::record::Clipped;
 use crate::rounding::{Way, moved};
-use crate::rows::{Asked, Found, Lists, Records};
+use crate::rows::{Found, Lists, QueryRows, Records};
 use crate::segments::ends;
 use meshsweep_core::{Budget, Ended, NodePair, TriboxCandidates, Triboxes};
 use numpy::PyArray1;
@@ -57,33 +57,37 @@ impl Model {
     /// A lower bound of each point's distance.
     fn tribox_distance<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         steps: Option<u32>,
     ) -> PyResult<Records<'py>> {
         let (triboxes, budget) = (self.stored_triboxes()?, budget((0.0, 0.0, steps)));
-        asked.each(triboxes.scratch_entries(), |point, scratch| {
+        rows.each(triboxes.scratch_entries(), |point, scratch| {
             triboxes.distance(point, budget, scratch)
         })
     }
 
     /// The parameter before which each segment is clear. Rows have both ends, and how far rounding
     /// moved each.
-    fn tribox_hit<'py>(&self, asked: Asked<'py>, steps: Option<u32>) -> PyResult<Records<'py>> {
+    fn tribox_first_hit<'py>(
+        &self,
+        rows: QueryRows<'py>,
+        steps: Option<u32>,
+    ) -> PyResult<Records<'py>> {
         let (triboxes, budget) = (self.stored_triboxes()?, budget((0.0, 0.0, steps)));
-        asked.each(triboxes.scratch_entries(), |row: [f32; 8], scratch| {
+        rows.each(triboxes.scratch_entries(), |row: [f32; 8], scratch| {
             let [a, b] = ends(&row);
             let mut found = triboxes.clip(a, b, budget, scratch)?;
             if found.lower == f32::INFINITY && moved(&row) > 0.0 {
                 let mut last = None;
-                let (part, work) = Way::of_segment([a, b], moved(&row)).cleared(|centre| {
+                let (fraction, work) = Way::of_segment([a, b], moved(&row)).cleared(|centre| {
                     let near = triboxes.distance(centre, budget, scratch)?;
                     last = near.node;
                     Ok((near.lower, near.work))
                 })?;
                 found.work = found.work.and(work);
-                if part < 1.0 {
+                if fraction < 1.0 {
                     (found.node, found.ended) = (last, Ended::Resolution);
-                    found.lower = (part as f32).next_down().max(0.0);
+                    found.lower = (fraction as f32).next_down().max(0.0);
                 }
             }
             Ok(Clipped(found))
@@ -91,25 +95,25 @@ impl Model {
     }
 
     /// Whether both are farther than a distance from each other, at each pose of the second.
-    fn tribox_separation<'py>(
+    fn tribox_within_of<'py>(
         &self,
-        asked: Asked<'py>,
+        rows: QueryRows<'py>,
         other: &Model,
         distance: f32,
     ) -> PyResult<Records<'py>> {
         let (first, second) = (self.stored_triboxes()?, other.stored_triboxes()?);
-        asked.each(first.separation_entries(&second), |row: [f32; 12], scratch| {
+        rows.each(first.separation_entries(&second), |row: [f32; 12], scratch| {
             first.within_of(&second, pose(&row), distance, Budget::EXACT, scratch)
         })
     }
 
     /// The pairs of triboxes that may meet.
-    fn tribox_candidates<'py>(&self, asked: Asked<'py>, other: &Model) -> PyResult<Lists<'py>> {
+    fn tribox_candidates<'py>(&self, rows: QueryRows<'py>, other: &Model) -> PyResult<Lists<'py>> {
         let (first, second) = (self.stored_triboxes()?, other.stored_triboxes()?);
         let entries = first.separation_entries(&second);
-        asked.lists(entries, NodePair::EMPTY, |row: [f32; 12], room, scratch| {
+        rows.lists(entries, NodePair::EMPTY, |row: [f32; 12], answers, scratch| {
             let TriboxCandidates { stored, dropped, .. } =
-                first.candidates(&second, pose(&row), room, Budget::EXACT, scratch)?;
+                first.candidates(&second, pose(&row), answers, Budget::EXACT, scratch)?;
             Ok(Found { stored, dropped, is_complete: true })
         })
     }

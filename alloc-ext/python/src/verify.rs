@@ -4,7 +4,7 @@ use crate::build::unit_named;
 use crate::error::{BuildError, of_build};
 use crate::mesh::{Given, Taken};
 use crate::model::Model;
-use crate::pool::aside;
+use crate::pool::run_detached;
 use meshsweep::check::{
     Against, FilePolyline, Finding, Outcome, verify as prove, verify_file, verify_repair,
 };
@@ -32,7 +32,7 @@ pub fn verify(
 ) -> PyResult<Vec<Found>> {
     let (mesh, unit) = (mesh.taken()?, unit_named(unit.as_deref())?);
     let prove = move |stop: &AtomicBool| of_any(model.get(), mesh, unit, &frames, stop);
-    let findings = py.detach(|| aside(prove))?;
+    let findings = py.detach(|| run_detached(prove))?;
     let found = |Finding { structure, outcome, words, counts }| {
         let outcome = match outcome {
             Outcome::Proved => "proved",
@@ -90,7 +90,10 @@ fn of_any(
     of_mesh(model.raw(), &source, &source.on_grid(bits).map_err(refused)?, &[], stop)
 }
 
-/// The findings of three proofs, the last ones unless Ctrl-C made them idle.
+/// The findings of three proofs. Looks for Ctrl-C before each.
+///
+/// # Errors
+/// Ctrl-C.
 fn of_mesh(
     bytes: &[u8],
     source: &Source,

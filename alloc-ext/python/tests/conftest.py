@@ -10,6 +10,14 @@ import pytest
 FIXTURES = Path(__file__).parents[3] / "fixtures"
 
 
+CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], np.float64)
+"""Those of the unit cube."""
+
+FACES = [[0, 2, 1], [1, 2, 3], [0, 1, 4], [1, 5, 4], [1, 3, 5], [3, 7, 5]]
+FACES += [[3, 2, 7], [2, 6, 7], [2, 0, 6], [0, 4, 6], [4, 5, 6], [5, 7, 6]]
+"""Triangles of the cube. The last two are its lid, at z = 1."""
+
+
 @pytest.fixture
 def fixtures() -> Path:
     return FIXTURES
@@ -60,6 +68,17 @@ def distances(points, vertices, triangles):
         foot = start + np.clip(t, 0, 1)[..., None] * edge
         nearest = np.minimum(nearest, np.linalg.norm(p - foot, axis=2))
     return np.where(is_over, np.abs(height), nearest)
+
+
+def winding_numbers(points, vertices, triangles):
+    """How often a mesh encloses each point (n, 3), by solid angles in f64: shape (n,)."""
+    corners = vertices.astype(np.float64)[np.asarray(triangles)]
+    a, b, c = (corners[:, k] - np.asarray(points, np.float64)[:, None] for k in range(3))
+    dot = lambda u, v: np.einsum("ntk,ntk->nt", u, v)
+    la, lb, lc = (np.linalg.norm(x, axis=2) for x in (a, b, c))
+    over = dot(a, np.cross(b, c))
+    under = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb
+    return np.arctan2(over, under).sum(axis=1) / (2 * np.pi)
 
 
 def orientation(a, b, c, d):

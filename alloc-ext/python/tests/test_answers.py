@@ -3,7 +3,7 @@
 import meshsweep
 import numpy as np
 import pytest
-from conftest import distances, orientation, sphere
+from conftest import CORNERS, FACES, distances, orientation, sphere, winding_numbers
 from meshsweep import Side, Verdict
 
 SCALES = [1.0, 1e-30, 1e30]
@@ -202,22 +202,12 @@ def test_a_list_without_a_triangle_that_is_hit_is_not_complete():
 
 
 def test_a_side_by_a_winding_number_is_that_of_the_point_as_given():
-    corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], np.float32)
-    faces = [[0, 2, 1], [1, 2, 3], [0, 1, 4], [1, 5, 4], [1, 3, 5], [3, 7, 5]]
-    faces += [[3, 2, 7], [2, 6, 7], [2, 0, 6], [0, 4, 6]]
-    lid = [[4, 5, 6], [5, 7, 6]]
+    corners, faces = CORNERS.astype(np.float32), FACES[:-2]
     box = meshsweep.build((corners, faces), "closest,winding")
-    closed = meshsweep.build((corners, faces + lid), "closest,winding")
+    closed = meshsweep.build((corners, FACES), "closest,winding")
     assert not box.is_closed and closed.is_closed
 
-    def winding(point):
-        a, b, c = ((corners[k].astype(np.float64) - point) for k in np.array(faces).T)
-        la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
-        dot = lambda u, v: np.einsum("ij,ij->i", u, v)
-        over = dot(a, np.cross(b, c))
-        under = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb
-        return np.arctan2(over, under).sum() / (2 * np.pi)
-
+    winding = lambda point: winding_numbers([point], corners, faces)[0]
     points = []
     for x, y in np.random.default_rng(8).uniform(0.1, 0.9, (50, 2)):
         low, high = 0.5, 1.5
@@ -263,12 +253,12 @@ def test_no_verdict_about_a_rounded_distance_is_wrong_even_if_each_one_asked_is_
     truths = 1 + np.linspace(-5e-7, 5e-7, 101)
 
     def ask(limits):
-        found = np.recarray(len(truths), meshsweep._records.MEETS)
+        found = np.recarray(len(truths), meshsweep._records.WITHIN_OF)
         found.verdict = np.where(truths <= limits, Verdict.YES, Verdict.NO)
         return found
 
     for distance in 1 + np.linspace(-1e-7, 1e-7, 41):
-        found = meshsweep._rounding.asked(ask, distance, np.zeros(1))
+        found = meshsweep._rounding.verdict_at_unrounded_distance(ask, distance, np.zeros(1))
         assert (truths[found.verdict == Verdict.NO] > distance).all()
         assert (truths[found.verdict == Verdict.YES] <= distance).all()
         assert (found.verdict == Verdict.NO).any() and (found.verdict == Verdict.YES).any()

@@ -1,7 +1,9 @@
 """What builds, what is refused, and with which words."""
 
+import inspect
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -12,6 +14,7 @@ import meshsweep
 import numpy as np
 import pytest
 from conftest import sphere
+from meshsweep._meshsweep import words_of_for
 
 
 def test_a_file_and_its_arrays_give_the_same_answers(fixtures):
@@ -432,3 +435,12 @@ def test_the_lines_of_the_first_readme_run(monkeypatch, fixtures, capsys):
     monkeypatch.chdir(fixtures.parent)
     exec(compile(lines.replace("1_000_000", "10_000"), "README.md", "exec"), {})  # noqa: S102
     assert 10 < float(capsys.readouterr().out) < 100
+
+
+def test_the_docstring_of_build_names_every_word_and_every_option():
+    text = inspect.getdoc(meshsweep.build)
+    words = re.findall(r"^`(\w+)`  ", text, re.MULTILINE)
+    assert sorted(words) == sorted(words_of_for())
+    options = re.findall(r"^- `(\w+)`: ", text, re.MULTILINE)
+    parameters = [*inspect.signature(meshsweep.build).parameters]
+    assert options == [name for name in parameters if name not in ("mesh", "for_", "progress")]

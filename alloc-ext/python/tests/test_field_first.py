@@ -1,21 +1,15 @@
-"""Bounds by the distance field first, beside all triangles in f64; fields of the options."""
+"""Bounds by the distance field first, compared with all triangles in f64; options of fields."""
 
 import functools
 
 import meshsweep
 import numpy as np
 import pytest
-from conftest import distances, sphere
+from conftest import CORNERS, FACES, distances, sphere
 from meshsweep import Side, Verdict
 
 BALL = sphere(6, 8)
-CUBE = (
-    np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float),
-    [
-        *[[0, 2, 1], [1, 2, 3], [0, 1, 4], [1, 5, 4], [1, 3, 5], [3, 7, 5]],
-        *[[3, 2, 7], [2, 6, 7], [2, 0, 6], [0, 4, 6], [4, 5, 6], [5, 7, 6]],
-    ],
-)
+CUBE = (CORNERS, FACES)
 
 
 @functools.cache

@@ -9,11 +9,7 @@ import zipfile
 import meshsweep
 import numpy as np
 import pytest
-from conftest import distances, sphere
-
-CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], np.float64)
-FACES = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4]]
-FACES += [[1, 3, 5], [3, 7, 5], [3, 2, 7], [2, 6, 7], [2, 0, 6], [0, 4, 6]]
+from conftest import CORNERS, FACES, distances, sphere
 
 
 def box(size, at=(0, 0, 0)):
@@ -45,7 +41,7 @@ def sampled(mesh, other, parts):
     ],
 )
 def test_boxes_are_as_far_apart_as_is_known(a, b, forward, backward):
-    # Numbers that single precision does not hold, but for rounding that is told.
+    # Single precision does not hold corners scaled by 0.1. `rounding` says how far they move.
     for scale in [1.0, 0.1]:
         scaled = [(vertices * scale, triangles) for vertices, triangles in (a, b)]
         for meshes, distance in [(scaled, forward), (scaled[::-1], backward)]:
@@ -55,7 +51,7 @@ def test_boxes_are_as_far_apart_as_is_known(a, b, forward, backward):
             assert found.is_backward is False and found.lower > 0
         both = meshsweep.hausdorff(*scaled)
         assert both.lower <= max(forward, backward) * scale <= both.upper
-        assert both.ended == "precision" and both.upper <= both.lower * (1 + 1e-4)
+        assert both.stopped_by == "precision" and both.upper <= both.lower * (1 + 1e-4)
         assert (max(both.rounding) > 0) == (scale == 0.1)
         apart = np.linalg.norm(both.point_a - both.point_b)
         assert apart == pytest.approx(both.lower, rel=1e-6)
@@ -91,7 +87,7 @@ def test_a_limit_is_decided_or_left_open():
     assert meshsweep.hausdorff(a, b).holds is None
     alike = meshsweep.hausdorff(a, a)
     assert alike.lower == 0 and 0 < alike.upper < 1e-9
-    assert alike.ended == "rounding" and alike.point_a is None and alike.triangle_b is None
+    assert alike.stopped_by == "rounding" and alike.point_a is None and alike.triangle_b is None
 
 
 def in_3mf(file, unit, mesh):
@@ -126,7 +122,7 @@ def test_files_have_units_and_other_meshes_take_theirs(tmp_path, fixtures):
     in_3mf(a, "millimeter", box((1, 1, 1)))
     in_3mf(b, "inch", box((1, 1, 2)))
     found = meshsweep.hausdorff(a, box((1, 1, 2)))
-    assert found.unit == "mm" and found.lower <= 1 <= found.upper and found.doubts == []
+    assert found.unit == "mm" and found.lower <= 1 <= found.upper and found.warnings == []
     with pytest.raises(meshsweep.BuildError, match=r"mm.*in"):
         meshsweep.hausdorff(a, b)
     in_mm = meshsweep.hausdorff(a, b, unit="mm")

@@ -3,7 +3,7 @@
 import meshsweep
 import numpy as np
 import pytest
-from conftest import distances, sphere
+from conftest import distances, sphere, winding_numbers
 
 MESH = sphere()
 
@@ -20,12 +20,7 @@ def encloses(hull, points):
     corners, faces = hull[0].astype(np.float64), hull[1].astype(np.int64)
     edges = [(int(f[k]), int(f[(k + 1) % 3])) for f in faces for k in range(3)]
     assert len(set(edges)) == len(edges) and {e[::-1] for e in edges} == set(edges)
-    dot = lambda u, v: np.einsum("ptk,ptk->pt", u, v)
-    a, b, c = (corners[faces[:, k]] - points.astype(np.float64)[:, None] for k in range(3))
-    la, lb, lc = (np.linalg.norm(x, axis=2) for x in (a, b, c))
-    over = dot(a, np.cross(b, c))
-    under = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb
-    winding = np.arctan2(over, under).sum(axis=1) / (2 * np.pi)
+    winding = winding_numbers(points, corners, faces)
     return (winding > 0.5) | (distances(points, *hull[:2]).min(axis=1) < 1e-6)
 
 

@@ -82,13 +82,13 @@ def test_models_keep_their_distance_before_they_are_stopped():
         y = reach[:, 0] * np.sin(turn)
         return screw(turn, np.stack([x, y, low + (high - low) * t], axis=1))
 
-    for keep in [0.0, 0.4 + 1e-12]:
-        found = part.first_contact_of(part, pose(0.0), pose(1.0), keep=keep)
+    for clearance in [0.0, 0.4 + 1e-12]:
+        found = part.first_contact_of(part, pose(0.0), pose(1.0), clearance=clearance)
         for t in TIMES[::3]:
             poses = pose(t)
             for row in np.flatnonzero(t < found.clear_until):
                 moved = vertices @ poses[row, :3, :3].T + poses[row, :3, 3]
-                assert distances(moved, vertices, triangles).min() > keep
+                assert distances(moved, vertices, triangles).min() > clearance
         assert ((found.verdict == Verdict.NO) == np.isinf(found.clear_until)).all()
         assert 0 < (found.verdict == Verdict.NO).sum() < 30
 
@@ -97,7 +97,7 @@ def test_models_that_move_along_a_line_are_stopped_where_their_poles_meet():
     part = meshsweep.build(sphere(), "segment")
     begins, ends = (screw(np.zeros(2), [[0, 0, z], [9, 0, z]]) for z in (4, 0))
     for straight in [False, True]:
-        found = part.first_contact_of(part, begins, ends, keep=0.5, straight=straight)
+        found = part.first_contact_of(part, begins, ends, clearance=0.5, straight=straight)
         assert found.verdict.tolist() == [Verdict.UNDECIDED, Verdict.NO]
         assert 0.374 < found.clear_until[0] <= 0.375
         assert np.abs(found.points[0] - [[0, 0, 1], [0, 0, 1.5]]).max() < 0.01

@@ -5,7 +5,7 @@ from fractions import Fraction
 import meshsweep
 import numpy as np
 import pytest
-from conftest import crosses, distances, sphere
+from conftest import crosses, distances, sphere, winding_numbers
 from meshsweep import Relation, Verdict
 
 
@@ -27,7 +27,7 @@ def exact(vertices, triangles):
 def test_all_overlaps_leave_out_no_pair_that_meets():
     vertices, triangles = ball()
     part = meshsweep.build((vertices, triangles), "segment", vertex_bits=32)
-    # Places that single precision adds without rounding would be too few: f64 holds the sums.
+    # Places are eighths, so that f64 adds them to corners without rounding.
     places = np.random.default_rng(31).integers(-12, 13, (6, 3)) / 8
     places[0] = [9, 0, 0]
     first, boxes = exact(vertices, triangles)
@@ -53,16 +53,6 @@ def test_all_overlaps_leave_out_no_pair_that_meets():
     assert seen > 50
 
 
-def winding(points, vertices, triangles):
-    """How often a mesh encloses points, by solid angles in f64."""
-    a, b, c = (vertices.astype(np.float64)[triangles[:, k]] - points[:, None] for k in range(3))
-    la, lb, lc = (np.linalg.norm(x, axis=2) for x in (a, b, c))
-    over = (a * np.cross(b, c)).sum(axis=2)
-    under = la * lb * lc + (a * b).sum(axis=2) * lc + (b * c).sum(axis=2) * la
-    under += (c * a).sum(axis=2) * lb
-    return np.arctan2(over, under).sum(axis=1) / (2 * np.pi)
-
-
 def test_depths_of_penetration_hold_and_translations_separate():
     vertices, triangles = ball()
     words = "closest,segment,winding"
@@ -81,14 +71,14 @@ def test_depths_of_penetration_hold_and_translations_separate():
         assert np.linalg.norm(near.apart - place) <= near.upper * (1 + 1e-6)
         # At the translation no sample is inside both, and no corner of one in the other.
         samples = rng.uniform(-2.2, 2.2, (4000, 3))
-        inside = winding(samples, vertices, triangles) > 0.5
-        both = inside & (winding(samples, moved, triangles) > 0.5)
+        inside = winding_numbers(samples, vertices, triangles) > 0.5
+        both = inside & (winding_numbers(samples, moved, triangles) > 0.5)
         assert inside.any() and not both.any()
         # The deepest point is inside of both as they are, and proves the lower end.
         at = near.deepest[None].astype(np.float64)
         depth = 0.0
         for of in [vertices, vertices + place]:
-            assert winding(at, of, triangles) > 0.5
+            assert winding_numbers(at, of, triangles) > 0.5
             depth += distances(at, of, triangles).min()
         assert near.lower <= depth + 1e-6
     inside = part.penetration(small, poses_at([[0, 0, 0], [0.2, 0, 0.1]]))

@@ -6,13 +6,11 @@ from fractions import Fraction
 import meshsweep
 import numpy as np
 import pytest
+from conftest import CORNERS, FACES
 from meshsweep import Facing, Verdict
 
 ASIDE = np.array([0.01, 0, 0])
 LOW, HIGH = np.array([4096.0, 0, 0]), np.array([4097.0, 1, 1])
-CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], np.float64)
-FACES = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4]]
-FACES += [[1, 3, 5], [3, 7, 5], [3, 2, 7], [2, 6, 7], [2, 0, 6], [0, 4, 6]]
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,7 @@ def test_errors_and_bytes_are_those_of_the_models():
         row = next(
             row
             for row in found.rows
-            if row.dials == "exact" and row.build == f"--for closest --vertex-bits {name}"
+            if row.budget == "exact" and row.build == f"--for closest --vertex-bits {name}"
         )
         near = model.closest_point(points)
         widths = near.upper.astype(np.float64) - near.lower
@@ -130,12 +130,12 @@ def test_curves_are_measured_and_chosen(fixtures):
     curve, fence = (
         meshsweep.trade(file, at=points, closed=closed).rows for closed in (False, True)
     )
-    signed = [row for row in fence if row.dials.startswith("signed")]
-    assert signed and not any(row.dials.startswith("signed") for row in curve)
-    assert any(row.dials.startswith("within") and row.error is None for row in curve)
+    signed = [row for row in fence if row.budget.startswith("signed")]
+    assert signed and not any(row.budget.startswith("signed") for row in curve)
+    assert any(row.budget.startswith("within") and row.error is None for row in curve)
     model = meshsweep.build(file, vertex_bits=32)
     near = model.closest_point(points)
-    exact = next(row for row in curve if row.dials == "exact" and row.flash == len(bytes(model)))
+    exact = next(row for row in curve if row.budget == "exact" and row.flash == len(bytes(model)))
     widths = near.upper.astype(np.float64) - near.lower
     assert exact.error == pytest.approx(widths.max(), rel=1e-6)
     flash = max(row.flash for row in curve) - 1
@@ -145,7 +145,7 @@ def test_curves_are_measured_and_chosen(fixtures):
     assert len(bytes(choice.model)) <= flash and choice.model.serves == ["curve"]
     sides = meshsweep.choose(file, ram=4096, at=points, closed=True)
     found = sides.model.signed_distance(points[:, :2])
-    assert sides.first.dials.startswith("signed")
+    assert sides.first.budget.startswith("signed")
     assert sides.first.undecided == min(row.undecided for row in signed)
     assert np.sum(found.side == 0) <= sides.first.undecided
 

@@ -13,7 +13,7 @@ def test_every_structure_is_proved_of_its_mesh_and_fails_of_another():
     options = {"tight_faces": [20], "triboxes": 4, "sdf_bytes": 2048}
     part = meshsweep.build((vertices, triangles), ALL, **options)
     proof = meshsweep.verify(part, (vertices, triangles))
-    assert proof and not proof.open
+    assert proof and not proof.unproved
     structures = {finding.structure for finding in proof.proved}
     wanted = {"box tree", "hull hierarchy", "tight hulls", "triboxes", "distance field"}
     assert wanted <= structures
@@ -22,8 +22,8 @@ def test_every_structure_is_proved_of_its_mesh_and_fails_of_another():
     larger = vertices.copy()
     larger[0, 2] += 0.25
     proof = meshsweep.verify(part, (larger, triangles))
-    assert not proof and wanted <= {found.structure for found in proof.open}
-    assert all(found.outcome != "proved" and found.text for found in proof.open)
+    assert not proof and wanted <= {found.structure for found in proof.unproved}
+    assert all(found.outcome != "proved" and found.text for found in proof.unproved)
 
 
 def test_files_in_units_on_grids_with_key_frames_and_of_curves_are_proved(tmp_path, fixtures):

@@ -44,15 +44,63 @@ def build(
 
     `mesh` is a file (STL, PLY, OBJ, OFF, glTF, 3MF, COLLADA; or CSV of a curve), a pair of vertices
     (v, 3) and triangles (t, 3), or an object with `vertices` and `faces`, as `trimesh.Trimesh`.
-    `for_` names the questions, as "closest,segment", which is the default. The other options are
-    those of `meshsweep build`, which its help explains; `None` is the default. So `sdf_error` is
-    the largest width of an interval of a distance field, in the mesh's unit.
+    `for_` has the words of the questions that the model must answer, as "closest,segment", which is
+    the default:
 
-    `progress` is called with the name of the stage and the part of the work that is done; `True`
-    shows a bar, if tqdm is installed. An exception of it, or Ctrl-C, ends the build.
+    ==========  ==================================================================================
+    word        what the model answers, and from which structure
+    ==========  ==================================================================================
+    `closest`   distances and sides of points: a box tree of any mesh
+    `segment`   segments, rays, solids and other models: a box tree of any mesh
+    `cull`      `front_facing`: normal cones in the box tree
+    `winding`   `winding_number`, sides of open meshes, `penetration`: in the box tree
+    `hull`      `hull_levels` and `refine`; distances, segments, `overlap`: a progressive hull of a
+                closed manifold mesh
+    `sweep`     as `hull`, of any mesh; no level encloses the mesh
+    `triboxes`  `tribox_distance` and its kin: a union of chamfered boxes that holds the mesh
+    `tight`     `tight_hulls`; wider intervals of distances: hulls of few faces
+    `sdf`       `field_distance` and `field_within`: a distance field
+    `deform`    `frame=` of questions: the hierarchy of `hull`, or with "sweep,deform" that of any
+                mesh, with key frames
+    `curve`     questions about points to a curve or a fence: the only word for a CSV file
+    ==========  ==================================================================================
+
+    Options are those of `meshsweep build`. Lengths are in the mesh's unit. `None` is the default.
+
+    - `unit`: the unit that the file is scaled to, as "mm"; without it nothing is scaled.
+    - `vertex_bits`: bits of a stored coordinate, 16, 24 or 32 (single precision). By default 16, or
+      32 where 16 would move vertices too far; of hulls the fewest that store the mesh exactly.
+    - `base_faces`: faces of the coarsest hull of "hull", "sweep" and "deform". Default: 200.
+    - `triboxes`: the most triboxes of the finest level. Default: 64.
+    - `tribox_error`: a length. Triboxes are split until each is within it of the convex hull of the
+      triangles that it holds.
+    - `orient`: "volume" or "area": turns the triboxes to where one about the mesh has the least.
+    - `extrema`: whether triboxes are split just beyond local extrema of the mesh too.
+    - `tight_faces`: the number of faces of each tight hull. Default: [200].
+    - `slack`: a length, in place of `tight_faces`: one hull of the fewest faces found, no point of
+      which is farther from the mesh.
+    - `void_percent`: in place of `tight_faces`: one hull of the fewest faces found, whose volume
+      beside the mesh is at most so many percent of the mesh's volume.
+    - `margin`: a length: tight hulls hold all points that are so near to the mesh. Default: 0.
+    - `effort`: a factor of the time to polish tight hulls. 0 is not at all. Default: 1.
+    - `tight_for`: the questions of tight hulls. Default: "closest,segment".
+    - `sdf_bytes`: bytes of the distance field. Default: 16384; with `sdf_error` at most 262144.
+    - `sdf_error`: a length: the largest width of the field's intervals. The field has the fewest
+      bytes found.
+    - `sdf_rel`: a fraction of the distance that is added to `sdf_error`. Default: 0.
+    - `sdf_kind`: "signed", "solid" (0 inside) or "surface" (without sign). Default: "signed" of a
+      closed mesh with sides, else "surface".
+    - `sdf_layout`: "lattice" or "tree". Default: the one of narrower intervals, or nearly so.
+    - `sdf_margin`: a length: how far the field extends beyond the mesh's box. Default: a tenth of
+      the box's diagonal.
+    - `frames`: files of the same mesh at further key frames, with "deform".
+    - `closed`: whether the last point of each polyline is joined with its first.
+
+    `progress` is called with the name of the stage and the fraction of the work that is done;
+    `True` shows a bar, if tqdm is installed. An exception of `progress`, or Ctrl-C, ends the build.
 
     Raises `BuildError`, which names the defect and its place, if the mesh or an option is refused.
-    What was repaired is in `Model.report`.
+    Repairs are in `Model.report`.
     """
     if isinstance(tight_faces, str) or not isinstance(tight_faces, Iterable | None):
         raise BuildError(f"tight_faces: a list of numbers is wanted, as [{tight_faces}]")
@@ -86,8 +134,8 @@ def build(
         if None in tight_faces:
             raise BuildError("tight_faces: whole numbers are wanted, not None")
         options["tight_faces"] = [whole(most, "tight_faces", BuildError) for most in tight_faces]
-    with Bar(progress) as tell:
-        return Model(_meshsweep.build(given(mesh), options, tell))
+    with Bar(progress) as on_progress:
+        return Model(_meshsweep.build(given(mesh), options, on_progress))
 
 
 def _number(given: Any, what: str, refused: Any) -> float | None:

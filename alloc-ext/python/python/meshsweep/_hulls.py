@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._arrays import checked, numbers, single
 from ._meshsweep import QueryError
-from ._opened import Opened
+from ._opened import OpenBlob
 
 
 class TightHull(NamedTuple):
@@ -20,7 +20,7 @@ class TightHull(NamedTuple):
     triangles: NDArray[np.uint32]
     """Shape (t, 3)."""
     slack: float
-    """No point of the hull is farther from the mesh."""
+    """No point of the hull is farther from the mesh. Includes the surface error."""
 
 
 class RefinedHull(NamedTuple):
@@ -31,10 +31,11 @@ class RefinedHull(NamedTuple):
     triangles: NDArray[np.uint32]
     """Shape (t, 3)."""
     error_left: float
-    """The largest error that the memory, for two million triangles, was too short for; else 0."""
+    """0 if every face is as near as asked for. Else the largest error that is left in a
+    hull of two million faces, which are the most."""
 
 
-class Hulls(Opened):
+class Hulls(OpenBlob):
     """The geometry of hulls."""
 
     def tight_hulls(self) -> list[TightHull]:
@@ -63,7 +64,7 @@ class Hulls(Opened):
 
         The hull is closed and encloses the mesh. Lengths are in the mesh's unit, and numbers are
         rounded to single precision. A negative number or one that is not finite is refused. Needs
-        "hull". Runs without the interpreter's lock; Ctrl-C waits for its end.
+        "hull". Runs without the interpreter's lock. Ctrl-C takes effect when it is done.
         """
         places = {"near": near, "box": box, "segment": segment}
         given = [(name, place) for name, place in places.items() if place is not None]

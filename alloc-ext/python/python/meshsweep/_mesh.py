@@ -23,8 +23,8 @@ class Faces(Protocol):
 
 
 Mesh = str | os.PathLike[str] | tuple[ArrayLike, ArrayLike] | Faces
-Tell = Callable[[str, float], Any] | None
-Progress = bool | Tell
+OnProgress = Callable[[str, float], Any] | None
+Progress = bool | OnProgress
 
 
 def given(mesh: Any) -> str | tuple[NDArray[np.float64], NDArray[np.uint32]]:
@@ -70,7 +70,7 @@ class Bar:
         self._progress = progress
         self._bar: Any = None
 
-    def __enter__(self) -> Tell:
+    def __enter__(self) -> OnProgress:
         if self._progress is not True:
             return self._progress or None
         try:
@@ -80,9 +80,9 @@ class Bar:
         self._bar = tqdm(total=1.0, bar_format="{l_bar}{bar}| {elapsed}")
         return self._show
 
-    def _show(self, stage: str, part: float) -> None:
+    def _show(self, stage: str, fraction: float) -> None:
         self._bar.set_description_str(stage, refresh=False)
-        self._bar.update(part - self._bar.n)
+        self._bar.update(fraction - self._bar.n)
 
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:

@@ -19,7 +19,7 @@ class Note(NamedTuple):
     text: str
 
 
-class Opened:
+class OpenBlob:
     """An opened blob. Its questions are in the classes that inherit it; `Model` has them all."""
 
     def __init__(self, blob: bytes | bytearray | memoryview | _meshsweep.Model) -> None:
@@ -35,7 +35,7 @@ class Opened:
     def __bytes__(self) -> bytes:
         return self._model.bytes()
 
-    def __reduce__(self) -> tuple[type[Opened], tuple[bytes], list[tuple[str, str]]]:
+    def __reduce__(self) -> tuple[type[OpenBlob], tuple[bytes], list[tuple[str, str]]]:
         return type(self), (bytes(self),), self._notes
 
     def __setstate__(self, notes: list[tuple[str, str]]) -> None:
@@ -43,7 +43,7 @@ class Opened:
 
     def __eq__(self, other: object) -> bool:
         """Whether the bytes are the same."""
-        return bytes(self) == bytes(other) if isinstance(other, Opened) else NotImplemented
+        return bytes(self) == bytes(other) if isinstance(other, OpenBlob) else NotImplemented
 
     def __hash__(self) -> int:
         return hash(bytes(self))
@@ -70,9 +70,9 @@ class Opened:
     def bounds(self) -> NDArray[np.float32]:
         """Shape (2, 3): a box that holds the input mesh, its vertices included.
 
-        It is the box of what is stored, `surface_error` larger, and rounded outward; of a blob with
-        a field alone the field's box. Raises `NotServedError` if the blob has nothing that knows
-        it.
+        It is the box of the stored geometry, larger by its surface error, and rounded outward; of a
+        blob with a distance field alone the field's box. Raises `NotServedError` if the blob has
+        neither.
         """
         bounds = self._facts["bounds"]
         if bounds is None:
@@ -96,7 +96,11 @@ class Opened:
 
     @property
     def surface_error(self) -> float | None:
-        """No stored point of the surface is farther from the input mesh. Intervals include it."""
+        """No stored point of the box tree's surface, or of the curves, is farther from the input.
+
+        Intervals include it. `None` if the blob has neither a box tree nor curves. Hull hierarchies
+        and tight hulls have errors of their own, which their intervals include too.
+        """
         return self._facts["surface_error"]
 
     @property
@@ -107,6 +111,6 @@ class Opened:
 
 def other_of(model: Any) -> _meshsweep.Model:
     """The second model of a question."""
-    if not isinstance(model, Opened):
+    if not isinstance(model, OpenBlob):
         raise QueryError(f"other: another Model is wanted, not {type(model).__name__}")
     return model._model

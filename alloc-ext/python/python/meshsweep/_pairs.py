@@ -11,17 +11,17 @@ from . import _records
 from ._arrays import checked, framed, limits, yes_or_no
 from ._arrays import poses as poses_of
 from ._meshsweep import QueryError
-from ._opened import Opened, other_of
+from ._opened import OpenBlob, other_of
 from ._records import Lists, Records, ask, ask_lists
-from ._rounding import asked, least
+from ._rounding import least, verdict_at_unrounded_distance
 
 
-class Pairs(Opened):
+class Pairs(OpenBlob):
     """Questions about two models."""
 
     def distance_to(
         self,
-        other: Opened,
+        other: OpenBlob,
         poses: ArrayLike | None = None,
         *,
         rel: SupportsFloat = 0.0,
@@ -42,9 +42,10 @@ class Pairs(Opened):
         return ask(self._model.distance_to, _records.PAIR, poses_of(poses), *how)
 
     def within_of(
-        self, other: Opened, distance: SupportsFloat, poses: ArrayLike | None = None
+        self, other: OpenBlob, distance: SupportsFloat, poses: ArrayLike | None = None
     ) -> Records:
-        """Whether both surfaces are at most `distance` apart, at poses of the other.
+        """Whether both surfaces are at most `distance` apart, at poses of the other. Both need
+        "segment".
 
         Fields: `verdict`; `triangles`, the witnesses of a `YES`, or -1; `ended`; `work`. Poses are
         rounded, as those of `distance_to`; the distance is not.
@@ -52,13 +53,15 @@ class Pairs(Opened):
         second, matrices = other_of(other), poses_of(poses)
 
         def question(limits: NDArray[np.float32]) -> Records:
-            return ask(self._model.within_of, _records.MEETS, matrices, second, float(limits[0]))
+            return ask(
+                self._model.within_of, _records.WITHIN_OF, matrices, second, float(limits[0])
+            )
 
-        return asked(question, checked(distance), np.zeros(1))
+        return verdict_at_unrounded_distance(question, checked(distance), np.zeros(1))
 
     def overlap(
         self,
-        other: Opened,
+        other: OpenBlob,
         poses: ArrayLike | None = None,
         *,
         frame: ArrayLike | None = None,
@@ -66,8 +69,9 @@ class Pairs(Opened):
         """Whether both surfaces meet, at poses of the other. Fields: those of `within_of`. Poses
         are rounded, as those of `distance_to`.
 
-        Where one has no "segment", and both have a hull hierarchy, the hierarchies answer: `NO` or
-        undecided, without triangles, if one of them was cut.
+        The box trees of "segment" answer. Where one has no "segment", and both have a hull
+        hierarchy, the hierarchies answer: `NO` or undecided, without triangles, if one of them was
+        cut.
 
         With `frame` this surface is that of a key frame or between two: one number for all poses,
         or one for each. This model needs "deform", the other one, at rest, a hull hierarchy.
@@ -75,10 +79,10 @@ class Pairs(Opened):
         matrices, second = poses_of(poses), other_of(other)
         if frame is not None:
             rows = np.hstack(framed(matrices, "poses", frame))
-            return ask(self._model.overlap_at, _records.MEETS, rows, second)
-        return ask(self._model.overlap, _records.MEETS, matrices, second)
+            return ask(self._model.overlap_at, _records.WITHIN_OF, rows, second)
+        return ask(self._model.overlap, _records.WITHIN_OF, matrices, second)
 
-    def all_overlaps(self, other: Opened, poses: ArrayLike | None = None) -> Lists:
+    def all_overlaps(self, other: OpenBlob, poses: ArrayLike | None = None) -> Lists:
         """All pairs of triangles that meet or may meet, at poses of the other: `Lists` of n
         records. Poses are rounded, as those of `distance_to`.
 
@@ -92,7 +96,7 @@ class Pairs(Opened):
 
     def penetration(
         self,
-        other: Opened,
+        other: OpenBlob,
         poses: ArrayLike | None = None,
         *,
         rel: SupportsFloat = 0.0,
@@ -115,27 +119,27 @@ class Pairs(Opened):
 
     def first_contact_of(
         self,
-        other: Opened,
+        other: OpenBlob,
         from_poses: ArrayLike,
         to_poses: ArrayLike,
         *,
-        keep: SupportsFloat = 0.0,
+        clearance: SupportsFloat = 0.0,
         straight: bool = False,
     ) -> Records:
-        """How far another model may move before it is within `keep` of this surface.
+        """How far another model may move before it is within `clearance` of this surface.
 
         Poses as those of `distance_to`, rounded too, one of each for a move. The way from one to
         the other is a screw, on which the model stays rigid; with `straight` each point goes along
-        a straight line, and a model that turns shrinks on the way. Both need "segment".
+        a straight line, so a turning model shrinks midway. Both need "segment".
 
-        Fields: `verdict`: `NO` where it is proved that the surfaces are farther apart than `keep`
-        during the whole move, else `UNDECIDED`; `clear_until`, the part of the move, 0 to 1, before
-        which they are, infinite if they always are; `points`, of each surface, in this frame, and
-        their `triangles`, which may stop the move; `ended`; `work`.
+        Fields: `verdict`: `NO` where it is proved that the surfaces are farther apart than
+        `clearance` during the whole move, else `UNDECIDED`; `clear_until`, the fraction of the
+        move, 0 to 1, before which they are, infinite if they always are; `points`, of each surface,
+        in this frame, and their `triangles`, which may stop the move; `ended`; `work`.
         """
         begins, ends = poses_of(from_poses), poses_of(to_poses)
         if len(begins) != len(ends):
             raise QueryError(f"{len(begins)} poses to begin at, {len(ends)} to end at")
         is_straight = yes_or_no(straight, "straight")
-        how = other_of(other), is_straight, least(checked(keep, "keep"))
+        how = other_of(other), is_straight, least(checked(clearance, "clearance"))
         return ask(self._model.first_contact_of, _records.MOVED, np.hstack([begins, ends]), *how)

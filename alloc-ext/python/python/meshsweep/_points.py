@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 from . import _records
 from ._arrays import checked, distances, framed, limits, rows, whole, yes_or_no
 from ._meshsweep import QueryError
-from ._opened import Opened
+from ._opened import OpenBlob
 from ._records import Lists, Records, Verdict, ask, ask_lists
-from ._rounding import asked, least, rounded, widened
+from ._rounding import least, rounded, verdict_at_unrounded_distance, widened
 
 
-class Points(Opened):
+class Points(OpenBlob):
     """Questions about points."""
 
     def _points(self, points: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
@@ -44,13 +44,17 @@ class Points(Opened):
         Fields: `lower` and `upper`, which contain the distance to the input mesh; `point`, of the
         surface and at most `upper` away from the rounded query, but then rounded itself to single
         precision, and of a model that was cut, of its hull; `triangle`, its number in the input
-        file, or -1; `ended`; `work`, which is less after a near point in the same 16384 rows: it
-        depends on the other rows, and nothing else does. Curves have `polyline`, `segment` and
-        `safe_motion` in place of `triangle`: of every point that is less than `safe_motion` away
-        from the one given, the segment is the closest one. 0 is no statement.
+        file, or -1; `ended`; `work`. A search is shorter if a point before it in the same 16384
+        rows is near, so `work` alone depends on the other rows. Curves have `polyline`, `segment`
+        and `safe_motion` in place of `triangle`: the segment is the closest one of every point that
+        is less than `safe_motion` away from the one given. 0 is no statement.
 
         A search ends once the interval is narrower than `rel` of the distance or than `abs`, or
         after so many `steps`: the interval is wider then, and holds.
+
+        The box tree of "closest" answers, else curves, else the hull hierarchy, else the finest
+        tight hull. `triangle` is -1 where the structure knows none: of tight hulls, and of a hull
+        hierarchy that was cut.
 
         With `precise` the triangles that may be the closest are measured in double precision. The
         interval is then some rounding of single precision wide at each end, and wider by
@@ -76,7 +80,7 @@ class Points(Opened):
         return widened(found, moved)
 
     def signed_distance(self, points: ArrayLike, *, steps: int | None = None) -> Records:
-        """The distance of each point, negative inside.
+        """The distance of each point, negative inside. Needs "closest", or a fence.
 
         trimesh and libigl differ: trimesh's `signed_distance` is positive inside.
 
@@ -115,13 +119,15 @@ class Points(Opened):
     ) -> Records:
         """Whether the surface is at most `distance` from each point: one number, or shape (n,).
 
+        The structures of `closest_point` answer.
+
         Fields: `verdict` (a `Verdict`: 0 only where it is proved that nothing is so near);
         `triangle`, the witness of a `YES`, or -1; of curves `polyline` and `segment`; `ended`;
         `work`. Deep inside a part nothing is near. If single precision does not hold the distances
         or the points, each row is asked twice, and `work` counts both.
 
         With `field_first` the distance field answers where it decides, and the box tree elsewhere:
-        faster, but the field names no triangle with a `YES`. Needs "closest,sdf".
+        faster, but the field names no triangle with a `YES`. That needs "closest,sdf".
         """
         near, moved = self._points(points)
         dtype = _records.WITHIN_OF_CURVE if self._facts["is_curve"] else _records.WITHIN
@@ -132,14 +138,15 @@ class Points(Opened):
             return ask(self._model.within, dtype, np.hstack([near, limits]), *how)
 
         slack = np.zeros(1) if moved is None else moved.astype(np.float64)
-        return asked(question, distances(distance, len(near)), slack)
+        return verdict_at_unrounded_distance(question, distances(distance, len(near)), slack)
 
     def nearest(self, points: ArrayLike, count: int, *, frame: ArrayLike | None = None) -> Records:
-        """The `count` triangles nearest to each point, nearest first: shape (n, count).
+        """The `count` triangles nearest to each point, nearest first: shape (n, count). Needs
+        "closest" or curves, with `frame` "deform".
 
         Fields: `lower`, `upper`, `point`, `triangle`, as those of `closest_point`; of curves
-        `polyline` and `segment`. A mesh with fewer triangles has fewer. With `frame` as for
-        `closest_point`. Memory that is too short for all answers raises `MemoryError`.
+        `polyline` and `segment`. If the mesh has fewer triangles, rows have fewer records. `frame`
+        is that of `closest_point`. Memory that is too short for all answers raises `MemoryError`.
         """
         most = whole(count, "count")
         if not most:
@@ -157,6 +164,8 @@ class Points(Opened):
 
     def all_within(self, points: ArrayLike, distance: SupportsFloat) -> Lists:
         """All triangles that may be at most `distance` from each point: `Lists` of n records.
+
+        Needs "closest" or curves.
 
         Fields: `lower`, `upper`, `point`, `triangle`, as those of `closest_point` (of curves
         `polyline` and `segment`), and `is_certain`: false of triangles that are perhaps a little
@@ -200,7 +209,7 @@ class Points(Opened):
         direction in which the distance rises, without a guarantee.
         """
         near, moved = rounded(rows(points, "points"))
-        found = ask(self._model.field, _records.FIELD, near)
+        found = ask(self._model.field_distance, _records.FIELD, near)
         return widened(found, moved, is_signed=self.field_kind == "signed")
 
     def field_within(self, points: ArrayLike, distance: SupportsFloat) -> Records:
@@ -219,7 +228,7 @@ class Points(Opened):
             return ask(self._model.field_within, _records.DECIDED, np.hstack([near, limits]))
 
         slack = np.zeros(1) if moved is None else moved.astype(np.float64)
-        return asked(question, checked(distance), slack)
+        return verdict_at_unrounded_distance(question, checked(distance), slack)
 
     def distance_bounds(
         self,

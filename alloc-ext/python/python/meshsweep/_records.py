@@ -1,4 +1,4 @@
-"""Answers as NumPy records. `src/*.rs` writes them in this order."""
+"""Answers as NumPy records. `src/record.rs` writes them in this order."""
 
 import functools
 from collections.abc import Callable, Sequence
@@ -47,7 +47,7 @@ MOVED = _record(
         *[("points", "f4", (2, 3)), ("triangles", "i8", 2), *_END],
     ]
 )
-MEETS = _record([("verdict", "u1"), ("triangles", "i8", 2), *_END])
+WITHIN_OF = _record([("verdict", "u1"), ("triangles", "i8", 2), *_END])
 OVERLAP = _record([("triangles", "i8", 2), ("is_certain", "?")])
 PENETRATION = _record(
     [("relation", "u1"), *_INTERVAL, ("apart", "f4", 3), ("deepest", "f4", 3), *_END]

@@ -1,4 +1,4 @@
-"""Answers about what callers give in double precision, from questions in single precision."""
+"""Answers about input in double precision, from queries in single precision."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from ._records import Ended, Records, Side, Verdict
 
 
 def rounded(rows: NDArray[Any]) -> tuple[NDArray[np.float32], NDArray[np.float32] | None]:
-    """Points in single precision, and bounds of how far each was moved, if any was."""
+    """Points in single precision, and upper bounds of the distances that rounding moved them by;
+    `None` if it moved none."""
     near = single(rows)
     if rows.dtype.kind == "f" and rows.dtype.itemsize <= 4:
         return near, None
@@ -24,7 +25,7 @@ def rounded(rows: NDArray[Any]) -> tuple[NDArray[np.float32], NDArray[np.float32
     with np.errstate(invalid="ignore"):
         off = np.abs(wide - near)
     if rows.dtype.kind in "iu" or rows.dtype.itemsize > 8:
-        # Other numbers were perhaps rounded to double precision before.
+        # The conversion to double precision rounds large integers and long doubles.
         is_exact = (np.abs(wide) < 2.0**53) if rows.dtype.kind in "iu" else wide == rows
         off = np.where(is_exact, off, off + np.abs(wide) * 2.0**-52)
     off[~np.isfinite(off)] = 0.0
@@ -35,7 +36,8 @@ def rounded(rows: NDArray[Any]) -> tuple[NDArray[np.float32], NDArray[np.float32
 
 
 def moved_pairs(a: ArrayLike, b: ArrayLike) -> NDArray[np.float32]:
-    """Rows of eight: those of `pairs`, and bounds of how far rounding moved each of both points."""
+    """Rows of eight: those of `pairs`, and for each of both points an upper bound of the distance
+    that rounding moved it by."""
     both = pairs(a, b)
     bounds = [rounded(rows(a, "starts"))[1], rounded(rows(b, "ends"))[1]]
     columns = [np.zeros(1, np.float32) if moved is None else moved for moved in bounds]
@@ -45,8 +47,8 @@ def moved_pairs(a: ArrayLike, b: ArrayLike) -> NDArray[np.float32]:
 def widened(
     found: Records, moved: NDArray[np.float32] | None, *, is_signed: bool = True
 ) -> Records:
-    """Intervals of distances that hold for points before rounding. `is_signed`: those of records
-    with a side may be negative."""
+    """Intervals of distances, widened so that they hold for the points before rounding. With
+    `is_signed` the intervals of records with a side may be negative."""
     if moved is None:
         return found
     slack = moved.reshape(moved.shape + (1,) * (found.ndim - 1))
@@ -70,16 +72,16 @@ def widened(
     return found
 
 
-def asked(
+def verdict_at_unrounded_distance(
     ask: Callable[[NDArray[np.float32]], Records],
     distance: float | NDArray[np.float64],
     slack: NDArray[np.float64],
 ) -> Records:
-    """Verdicts about a distance, or one of each row, which single precision may not hold, with so
-    much slack.
+    """Verdicts about a distance in double precision, one number or one of each row.
 
-    Farther than the distance and the slack is farther; nearer than the distance less the slack is
-    nearer; the rest is undecided. The work is that of both questions.
+    `ask` answers about distances in single precision, of rounded points: no point was moved by more
+    than `slack`. A `NO` is that of the distance plus the slack, rounded up. A `YES` is that of the
+    distance less the slack, rounded down. Other rows are undecided. `work` adds both questions.
     """
     distance = np.atleast_1d(distance)
     limits = single(distance)
@@ -112,6 +114,6 @@ def down(values: NDArray[np.float64]) -> NDArray[np.float32]:
 
 
 def least(limit: float) -> float:
-    """The distance, or a little more that single precision holds."""
+    """The least number of single precision that is not below the distance."""
     single = np.float32(limit)
     return float(np.nextafter(single, np.float32(np.inf)) if float(single) < limit else single)

@@ -12,7 +12,7 @@ from . import _records
 from ._arrays import facing as facing_of
 from ._arrays import framed, pairs, whole
 from ._meshsweep import QueryError
-from ._opened import Opened
+from ._opened import OpenBlob
 from ._records import Facing, Lists, Records, ask, ask_lists
 from ._rounding import moved_pairs
 
@@ -21,12 +21,12 @@ class AllHits(NamedTuple):
     """The triangles that each of n segments or rays meets."""
 
     hits: Lists
-    """Records of each, first ones first."""
+    """Records of each segment or ray, in order of the parameter."""
     is_complete: NDArray[np.bool_]
     """Shape (n,): whether it is proved that no other triangle is hit."""
 
 
-class Segments(Opened):
+class Segments(OpenBlob):
     """Questions about segments and rays."""
 
     def first_hit(
@@ -108,7 +108,7 @@ class Segments(Opened):
         Segments are rounded to single precision, and the lists, with what is said of them, are
         about the rounded ones. Give float32 to see no rounding.
 
-        With `frame`, and without "segment", as for `first_hit`.
+        Needs the words of `first_hit`, and takes its `frame`.
         """
         if frame is not None:
             rows = self._segments_at(starts, ends, facing, frame)

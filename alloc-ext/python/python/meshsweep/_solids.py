@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from . import _records
 from ._arrays import checked, distances, limits, rows, solids, whole, yes_or_no
 from ._meshsweep import QueryError
-from ._opened import Opened
+from ._opened import OpenBlob
 from ._records import Records, ask
-from ._rounding import asked, moved_pairs, rounded, up, widened
+from ._rounding import moved_pairs, rounded, up, verdict_at_unrounded_distance, widened
 
 
 def _placed(corners: ArrayLike, what: str) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
@@ -22,13 +22,13 @@ def _placed(corners: ArrayLike, what: str) -> tuple[NDArray[np.float32], NDArray
     return flat, np.zeros(len(near), np.float32) if moved is None else moved.max(axis=1)
 
 
-class Solids(Opened):
+class Solids(OpenBlob):
     """Questions about convex solids.
 
     A solid is all points within a radius of the hull of its 1 to 32 corners: one corner is a ball,
     two are a capsule, eight a box. Only the surface of the mesh counts: a solid inside may be
-    clear. All need "segment" among the words of `for_`. Corners are rounded to single precision,
-    and the answers include that.
+    clear. All need "segment" among the words of `for_`, and `field_first` also "sdf". Corners are
+    rounded to single precision, and the answers include that.
     """
 
     def solid_distance(
@@ -40,7 +40,7 @@ class Solids(Opened):
         abs: SupportsFloat = 0.0,
         steps: int | None = None,
     ) -> Records:
-        """The distance of each solid from the surface.
+        """The distance of each solid from the surface. Needs "segment".
 
         `corners`: shape (n, k, 3), in the mesh's frame: those of a robot's link at n poses are
         `corners @ poses[:, :3, :3].swapaxes(1, 2) + poses[:, None, :3, 3]`.
@@ -70,7 +70,8 @@ class Solids(Opened):
         `corners` as those of `solid_distance`. Fields: `verdict`; `triangle`, the witness of a
         `YES`, or -1; `ended`; `work`, as that of `within`. A flat solid without radius that passes
         through the surface is `UNDECIDED`. With `field_first` the distance field decides about
-        balls and capsules where it can; a `YES` of the field has no witness. Needs "sdf" too.
+        balls and capsules where it can; a `YES` of the field has no witness. Needs "segment";
+        `field_first` also needs "sdf".
         """
         near, moved = _placed(corners, "corners")
         size = checked(radius, "radius")
@@ -82,7 +83,9 @@ class Solids(Opened):
             question = self._model.solid_within
             return ask(question, _records.WITHIN, np.hstack([near, limits]), *how)
 
-        return asked(question, distances(distance, len(near)), _slack(moved, size))
+        return verdict_at_unrounded_distance(
+            question, distances(distance, len(near)), _slack(moved, size)
+        )
 
     def solid_first_contact(
         self,
@@ -94,11 +97,12 @@ class Solids(Opened):
         field_first: bool = False,
     ) -> Records:
         """Where each solid first meets the surface on its way: each corner goes straight from its
-        place at the start to that at the end.
+        place at the start to that at the end. Needs "segment".
 
-        Corners as those of `solid_distance`, equally many at both ends. A solid that turns shrinks
-        on the way, and so it is for small turns. Fields: those of `first_contact`. With
-        `field_first` the distance field proves ways clear where it can. Needs "sdf" too.
+        Corners as those of `solid_distance`, equally many at both ends. Corners move on straight
+        lines, so a turning solid shrinks midway. Split a large turn into small ones. Fields: those
+        of `first_contact`. With `field_first` the distance field proves ways clear where it can.
+        `field_first` also needs "sdf".
         """
         begins, moved = _placed(from_corners, "from_corners")
         ends, moved_there = _placed(to_corners, "to_corners")

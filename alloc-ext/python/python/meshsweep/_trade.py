@@ -1,4 +1,4 @@
-"""Measures what settings guarantee and cost, and chooses one that meets limits."""
+"""Measures the widest intervals and the costs of settings, and chooses one that meets limits."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from . import _meshsweep
 from ._arrays import checked, numbers, single, whole, word, yes_or_no
-from ._mesh import Bar, Mesh, Progress, Tell, given
+from ._mesh import Bar, Mesh, OnProgress, Progress, given
 from ._meshsweep import BuildError
 from ._model import Model
 
@@ -20,9 +20,9 @@ class Instructions(NamedTuple):
     cpu: str
     mean: float
     most: float
-    """Of the costliest query that was asked."""
+    """Of the costliest query that was measured."""
     at_most: float
-    """The same, times the most that predictions were short of counts when they were fitted."""
+    """`most` times the largest factor by which the fit missed a question's costliest query."""
     error: float
     """Largest relative error of a predicted mean when costs were fitted."""
     stack: int
@@ -30,17 +30,19 @@ class Instructions(NamedTuple):
 
 
 class TradeRow(NamedTuple):
-    """A setting, what it guarantees and what it costs. Lengths are in the mesh's unit."""
+    """A setting, its widest measured interval, and its cost. Lengths are in the mesh's unit."""
 
     structure: str
-    dials: str
-    """How it is asked: "exact", or tolerances, steps, and what is kept between queries."""
+    budget: str
+    """The options of its queries: "exact", or tolerances and steps, and what is kept between
+    queries. `meshsweep trade` calls them dials."""
     build: str
     """Options of `meshsweep build` that give it."""
     error: float | None
-    """The widest interval that was found: of other queries it may be wider, and holds. `None` of
-    lower bounds."""
+    """The width of the widest interval that was measured. Intervals of other queries may be wider,
+    and hold. `None` of lower bounds."""
     median_error: float | None
+    """The median of the widths."""
     undecided: int
     """Segments that stayed undecided; of curves sides, and verdicts of `within`."""
     instructions: dict[str, Instructions]
@@ -52,18 +54,20 @@ class TradeRow(NamedTuple):
     nanoseconds: float
     """Of a mean query on one thread here."""
     is_best: bool
-    """Whether no other row has as small an error, as few instructions and as little flash."""
+    """Whether no other row is as good in `error`, mean instructions of the Cortex-M4F and `flash`,
+    and better in one of them. Other processors are not compared. Of equal rows the first is
+    best."""
 
 
 class Trade(NamedTuple):
-    """What each setting of each structure costs and guarantees."""
+    """The widest measured interval and the cost of each setting of each structure."""
 
     rows: list[TradeRow]
     not_built: list[tuple[str, str]]
     """Structures that the mesh does not allow, and why."""
     needles: float
-    """The part of the triangles that are fifty times as long as high: from 0.1 on the mesh takes
-    more instructions than predicted, which `at_most` allows for."""
+    """The fraction of the triangles that are fifty times as long as high. From 0.1 on the mesh
+    takes more instructions than predicted, which `at_most` allows for."""
 
 
 class Choice(NamedTuple):
@@ -71,7 +75,7 @@ class Choice(NamedTuple):
 
     model: Model
     first: TradeRow
-    """The setting: `dials` say how firmware asks the model, `build` how it was built."""
+    """The setting: `budget` has the options of firmware's queries, `build` those of the build."""
     second: TradeRow | None
     """The best of the other settings that meet the limits and have less of something."""
     needles: float
@@ -88,7 +92,7 @@ def trade(
     unit: str | None = None,
     closed: bool = False,
 ) -> Trade:
-    """Measures what each setting of each structure guarantees and costs: `meshsweep trade`.
+    """Measures the widest interval and the cost of each setting: `meshsweep trade`.
 
     `mesh`, `unit` and `closed` as of `build`. `for_` is "closest" or "segment". `at` is "near" the
     surface, "far", or a "path", of `count` points or segments; or points of shape (n, 3), segments
@@ -102,8 +106,8 @@ def trade(
     call; threads that measure may work on for a while. Raises `BuildError` if the mesh or an option
     is refused.
     """
-    with Bar(progress) as tell:
-        found = _meshsweep.trade(_wanted(mesh, for_, at, count, unit, closed, tell))
+    with Bar(progress) as on_progress:
+        found = _meshsweep.trade(_wanted(mesh, for_, at, count, unit, closed, on_progress))
     rows = [_row(row) for row in found["rows"]]
     return Trade(rows, found["not_built"], found["needles"])
 
@@ -150,8 +154,8 @@ def choose(
         device["cpu"] = name, clock
     elif rate is not None:
         raise BuildError('rate: it takes a processor, as cpu=("m4f", 168e6)')
-    with Bar(progress) as tell:
-        wanted = _wanted(mesh, for_, at, count, unit, closed, tell)
+    with Bar(progress) as on_progress:
+        wanted = _wanted(mesh, for_, at, count, unit, closed, on_progress)
         model, found = _meshsweep.choose(wanted, device)
     second = None if found["second"] is None else _row(found["second"])
     return Choice(Model(model), _row(found["first"]), second, found["needles"])
@@ -175,20 +179,20 @@ def _wanted(
     count: int,
     unit: str | None,
     closed: bool,
-    tell: Tell,
+    on_progress: OnProgress,
 ) -> _meshsweep._Wanted:
     """What is measured."""
     places: str | list[list[float]]
     if isinstance(at, str):
         places = at
     else:
-        asked = numbers(at, "at", BuildError)
+        given_places = numbers(at, "at", BuildError)
         shape, wanted = ((2, 3), "(n, 2, 3)") if for_ == "segment" else ((3,), "(n, 3)")
-        if asked.shape[1:] != shape:
-            raise BuildError(f"at: shape {wanted} is wanted, not {asked.shape}")
-        if not np.all(np.isfinite(single(asked))):
+        if given_places.shape[1:] != shape:
+            raise BuildError(f"at: shape {wanted} is wanted, not {given_places.shape}")
+        if not np.all(np.isfinite(single(given_places))):
             raise BuildError("at: a number is not finite, or beyond single precision")
-        places = single(asked).reshape(-1, 3).tolist()
+        places = single(given_places).reshape(-1, 3).tolist()
     most = whole(count, "count", BuildError)
     if not most:
         raise BuildError("count: at least 1 is wanted")
@@ -199,7 +203,7 @@ def _wanted(
         "count": most,
         "unit": word(unit, "unit", BuildError),
         "closed": yes_or_no(closed, "closed", BuildError),
-        "progress": tell,
+        "progress": on_progress,
     }
 
 

@@ -11,16 +11,16 @@ from . import _records
 from ._arrays import checked, rows, whole
 from ._arrays import poses as poses_of
 from ._meshsweep import QueryError
-from ._opened import Opened, other_of
+from ._opened import OpenBlob, other_of
 from ._records import Lists, Records, ask, ask_lists
 from ._rounding import least, moved_pairs, rounded, widened
 
 
 class Triboxes(NamedTuple):
-    """A union of n triboxes that holds the mesh, and its inside where `is_solid`.
+    """A union of n triboxes that holds the mesh, and its inside if `is_solid`.
 
-    A tribox holds the points p of its part for which `low[i] <= directions @ frame @ p <= high[i]`,
-    in real arithmetic: a box whose twelve edges are chamfered.
+    Tribox i is the set of points p for which `low[i] <= directions @ frame @ p <= high[i]` in all
+    nine entries, in real arithmetic: a box whose twelve edges are chamfered.
     """
 
     node: NDArray[np.uint32]
@@ -42,10 +42,10 @@ class Triboxes(NamedTuple):
     is_solid: bool
     """Whether the union holds the inside of the mesh."""
     distance: float | None
-    """No point of the union's boundary is farther from the mesh; `None`: that is not stored."""
+    """No point of the union's boundary is farther from the mesh. `None` if that is not stored."""
 
 
-class TriboxQuestions(Opened):
+class TriboxQuestions(OpenBlob):
     """Questions to triboxes, and their geometry."""
 
     def triboxes(self, count: int | None = None) -> Triboxes:
@@ -68,8 +68,8 @@ class TriboxQuestions(Opened):
         """A lower bound of the distance of each point, by triboxes alone. Needs "triboxes".
 
         Fields: `lower`: no point of the mesh is nearer, nor one inside of it if the triboxes are
-        solid; `tribox`, the node with this bound; `ended`; `work`. There is no upper bound. So
-        `lower > d` proves that nothing is within d, and else nothing is known.
+        solid; `tribox`, the node with this bound; `ended`; `work`. There is no upper bound. If
+        `lower > d`, nothing is within d; else nothing is known.
         """
         near, moved = rounded(rows(points, "points"))
         found = ask(self._model.tribox_distance, _records.TRIBOX, near, whole(steps, "steps"))
@@ -88,11 +88,11 @@ class TriboxQuestions(Opened):
         of one that was moved, by up to 64 lower bounds of distances along it, which cost ten times
         as much. `t_lower` of others is that of the rounded segment.
         """
-        question, dtype = self._model.tribox_hit, _records.TRIBOX_HIT
+        question, dtype = self._model.tribox_first_hit, _records.TRIBOX_HIT
         return ask(question, dtype, moved_pairs(starts, ends), whole(steps, "steps"))
 
     def tribox_within_of(
-        self, other: Opened, distance: SupportsFloat, poses: ArrayLike | None = None
+        self, other: OpenBlob, distance: SupportsFloat, poses: ArrayLike | None = None
     ) -> Records:
         """Whether both models may be at most `distance` apart, at poses of the other as those of
         `distance_to`, by triboxes alone. Both need "triboxes".
@@ -103,14 +103,14 @@ class TriboxQuestions(Opened):
         about the rounded one.
         """
         how = other_of(other), least(checked(distance))
-        return ask(self._model.tribox_separation, _records.TRIBOX_PAIR, poses_of(poses), *how)
+        return ask(self._model.tribox_within_of, _records.TRIBOX_PAIR, poses_of(poses), *how)
 
-    def tribox_overlap(self, other: Opened, poses: ArrayLike | None = None) -> Records:
+    def tribox_overlap(self, other: OpenBlob, poses: ArrayLike | None = None) -> Records:
         """Whether both models may meet: `tribox_within_of` with a distance of 0. Models that only
         touch are not proved to be apart."""
         return self.tribox_within_of(other, 0.0, poses)
 
-    def tribox_candidates(self, other: Opened, poses: ArrayLike | None = None) -> Lists:
+    def tribox_candidates(self, other: OpenBlob, poses: ArrayLike | None = None) -> Lists:
         """All pairs of triboxes that may meet, at poses of the other: `Lists` of n records.
 
         Field: `triboxes`, a node of each model, as `Triboxes.node` names them. An empty list proves

@@ -14,27 +14,27 @@ from ._model import Model
 
 
 class Finding(NamedTuple):
-    """A claim of a model, and what came of its proof."""
+    """A claim of a model, and the outcome of its proof."""
 
     structure: str
     """As "box tree"."""
     outcome: str
     """ "proved", "failed", or "not proved": neither the claim nor its opposite."""
     text: str
-    """What was proved; else what does not hold, with its place, or why there is no proof."""
+    """The claim that was proved, the place where it fails, or why there is no proof."""
     counts: dict[str, int]
-    """What was counted on the way."""
+    """Counts of the proof, by name."""
 
 
 class Proof(NamedTuple):
-    """What came of the proofs of a model. Falsy if any claim is open."""
+    """The outcomes of the proofs of a model. Falsy if any claim is not proved."""
 
     proved: list[Finding]
-    open: list[Finding]
-    """Those that failed, and those without a proof."""
+    unproved: list[Finding]
+    """Claims that failed, and claims without a proof."""
 
     def __bool__(self) -> bool:
-        return bool(self.proved) and not self.open
+        return bool(self.proved) and not self.unproved
 
 
 def verify(
@@ -44,15 +44,16 @@ def verify(
     unit: str | None = None,
     frames: Iterable[str | os.PathLike[str]] = (),
 ) -> Proof:
-    """Proves what a model claims of the mesh, or of the curves, that it was built from.
+    """Proves the claims of a model about the mesh, or the curves, that it was built from.
 
-    By code of its own: a parser, exact arithmetic and a replay that share no code with the build
-    or the questions. `mesh`, `unit` and `frames` are those of `build`. The claims: the mesh is that
-    of the file but for repairs; boxes, hulls and triboxes hold the mesh; stated errors are bounds.
+    The blob is parsed again, by code that the build and the questions do not use. The mesh file is
+    read by the build's loader, and its repair is proved. `mesh`, `unit` and `frames` are those of
+    `build`. The claims: the mesh is that of the file but for repairs; boxes, hulls and triboxes
+    hold the mesh; stated errors are bounds.
 
-    `if verify(model, mesh)` is true only if all is proved. Raises `BuildError` if the mesh is
-    refused. The proofs take some
-    times as long as the build. Ctrl-C ends the call; threads that prove may work on for a while.
+    `if verify(model, mesh)` is true only if all claims are proved. Raises `BuildError` if the mesh
+    is refused. The proofs take a few times as long as the build. Ctrl-C ends the call; threads of
+    the proofs may run on for a while.
     """
     if not isinstance(model, Model):
         raise QueryError(f"a Model is wanted, not {type(model).__name__}")

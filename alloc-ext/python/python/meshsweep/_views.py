@@ -6,11 +6,11 @@ from numpy.typing import ArrayLike
 
 from . import _records
 from ._arrays import rows, single
-from ._opened import Opened
+from ._opened import OpenBlob
 from ._records import Lists, ask_lists
 
 
-class Views(Opened):
+class Views(OpenBlob):
     """Which triangles may be seen."""
 
     def front_facing(self, eyes: ArrayLike) -> Lists:
