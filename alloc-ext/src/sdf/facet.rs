@@ -81,14 +81,14 @@ impl Facet {
         a.max(b).max(c)
     }
 
-    /// Heights of the triangle's points within `reach` of its point `at`, over a point along a
+    /// Heights of the triangle's points within `radius` of its point `at`, over a point along a
     /// unit direction: least and greatest.
-    pub fn heights(&self, from: DVec3, direction: DVec3, at: DVec3, reach: f64) -> [f64; 2] {
+    pub fn heights(&self, from: DVec3, direction: DVec3, at: DVec3, radius: f64) -> [f64; 2] {
         let corners = self.at.map(|at| direction.dot(at - from));
         let least = corners[0].min(corners[1]).min(corners[2]);
         let most = corners[0].max(corners[1]).max(corners[2]);
         let slope = direction.cross(self.normal).length() + self.doubt;
-        let (middle, rise) = (direction.dot(at - from), slope * reach);
+        let (middle, rise) = (direction.dot(at - from), slope * radius);
         // Without an area the corners alone tell.
         if rise.is_finite() {
             [least.max(middle - rise), most.min(middle + rise)]

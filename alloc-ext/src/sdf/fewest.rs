@@ -14,7 +14,7 @@ use meshsweep_core::internal::sdf::format::layout::tree as tree_layout;
 
 /// Most root cells of a tree along the longest side. The last are looked at only if the smallest
 /// boxes of the others are too large, and not by far: their samples are many.
-const ROOTS: [usize; 4] = [1, 2, 5, tree_layout::MOST_ROOTS as usize];
+const ROOTS_TRIED: [usize; 4] = [1, 2, 5, tree_layout::MOST_ROOTS as usize];
 
 /// Bytes of a lattice are found to this part of them.
 const NEAREST: f64 = 1.02;
@@ -82,8 +82,8 @@ impl Work<'_> {
 
     fn fewest_tree(&self, most_bytes: usize, watch: Watch<'_>) -> Result<Found, BuildError> {
         let (mut best, mut before, mut refused) = (Found::NoRoom, None, None);
-        for (number, roots) in ROOTS.into_iter().enumerate() {
-            let part = |number: usize| number as f64 / ROOTS.len() as f64;
+        for (number, roots) in ROOTS_TRIED.into_iter().enumerate() {
+            let part = |number: usize| number as f64 / ROOTS_TRIED.len() as f64;
             let domain = match Domain::of_roots(&self.surface, self.options.margin, roots) {
                 Err(error @ BuildError::FieldUnit { .. }) => {
                     refused = Some(error);
@@ -91,7 +91,7 @@ impl Work<'_> {
                 }
                 domain => domain?,
             };
-            let is_last = number + 1 == ROOTS.len();
+            let is_last = number + 1 == ROOTS_TRIED.len();
             // Boxes that are half as large again take that much more of the width, about.
             let helps = matches!(best, Found::Taken(taken) if taken < 2.0);
             let is_enough = is_last && !helps;

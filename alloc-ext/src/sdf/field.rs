@@ -5,7 +5,7 @@ use super::codes::{Codes, widths};
 use super::domain::{CELL, Domain, bytes};
 use super::encode::{Books, Stored, section};
 use super::options::SdfOptions;
-use super::prove::{Errors, Proof, Prover};
+use super::prove::{Errors, FLOOR_OF_DIAGONAL, Proof, Prover, SLACK_OF_DIAGONAL};
 use super::samples::{Sample, Samples};
 use super::tree;
 use super::truth::{Side, Truth};
@@ -20,12 +20,11 @@ use meshsweep_core::{SdfKind, SdfLayout};
 use rayon::prelude::*;
 use std::time::Duration;
 
-/// Wanted errors are above those of the samples, at least by the greater of so many units and of a
-/// part of the diagonal. Samples miss what lies between them, and a proof without slack never ends.
-const SLACK: [f64; 2] = [CELL / 400.0, 1e-4];
+/// Slack of a lattice's cells, at least so many units or [`SLACK_OF_DIAGONAL`].
+const SLACK: [f64; 2] = [CELL / 400.0, SLACK_OF_DIAGONAL];
 
-/// Boxes of no larger radius are not halved: so many units, and a part of the diagonal.
-const FLOOR: [f64; 2] = [CELL / 160.0, 3e-4];
+/// Boxes of no larger radius than so many units, or [`FLOOR_OF_DIAGONAL`], are not halved.
+const FLOOR: [f64; 2] = [CELL / 160.0, FLOOR_OF_DIAGONAL];
 
 fn of_field([units, part]: [f64; 2], domain: &Domain) -> f64 {
     units.max(part * domain.diagonal)

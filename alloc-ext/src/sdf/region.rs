@@ -159,17 +159,17 @@ impl Region {
 
     /// Whether something with this normal and height over the box's centre may be nearest.
     #[inline]
-    fn reaches(&self, normal: DVec3, height: f64) -> bool {
+    fn may_be_nearest(&self, normal: DVec3, height: f64) -> bool {
         // The corner where the heights along the normal are least compared with the point's.
         let DVec3 { x, y, z } = normal * self.half;
         let edges = [-x - y - z, x - y - z, -x + y - z, x + y - z];
         let edges =
             [edges[0], edges[1], edges[2], edges[3], -edges[3], -edges[2], -edges[1], -edges[0]];
-        let mut reaches = false;
+        let mut is_near = false;
         for (edge, end) in edges.into_iter().zip(self.ends) {
-            reaches |= height + edge <= end + TIE;
+            is_near |= height + edge <= end + TIE;
         }
-        reaches
+        is_near
     }
 }
 
@@ -253,7 +253,7 @@ impl Facets {
         let normal = if length > TIE { away / length } else { of.normal };
         let height = -of.support(region.centre, normal);
         region.least = region.least.min(height - MARGIN);
-        let is_kept = region.reaches(normal, height)
+        let is_kept = region.may_be_nearest(normal, height)
             || region.ball().is_some_and(|radius| height <= radius + TIE);
         is_kept.then_some(Near { facet, point, normal, height })
     }
@@ -266,7 +266,7 @@ impl Facets {
             return;
         }
         let is_in_ball = region.ball().is_some_and(|radius| height <= radius + TIE);
-        if is_in_ball || region.reaches(normal, height) {
+        if is_in_ball || region.may_be_nearest(normal, height) {
             nears.push(Near { facet, point: region.centre, normal, height });
         }
     }
@@ -297,7 +297,7 @@ impl Facets {
             let length = away.length();
             length <= ball + TIE
                 || length <= 2.0 * seen.radius
-                || seen.reaches(away / length, length - MARGIN)
+                || seen.may_be_nearest(away / length, length - MARGIN)
         };
         self.tree_of_groups.visit_kept(&Frontier::whole(), keep, |group| {
             self.keep_group(&mut region, group as u32 | IS_GROUP, nears);
@@ -359,7 +359,7 @@ impl Facets {
         for number in range {
             let near = nears[number];
             let height = near.height + near.normal.dot(moved);
-            if height > ball && !region.reaches(near.normal, height) {
+            if height > ball && !region.may_be_nearest(near.normal, height) {
                 continue;
             }
             match near.facet() {

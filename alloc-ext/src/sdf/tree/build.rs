@@ -1,6 +1,7 @@
 //! The stages of a tree's build, and its bytes.
 
 use super::codes::{Coded, Scale};
+use super::encode::section;
 use super::fit::{Fitted, Fitter};
 use super::grid::Batch;
 use super::leaf::{Leaf, Shape, entry, losses};
@@ -12,23 +13,18 @@ use crate::sdf::allowed::{Allowed, widest};
 use crate::sdf::books::{self, book};
 use crate::sdf::domain::{Domain, ROOT};
 use crate::sdf::function::{Function, Linear};
-use crate::sdf::prove::{Errors, Proof, Prover};
+use crate::sdf::prove::{Errors, FLOOR_OF_DIAGONAL, Proof, Prover, SLACK_OF_DIAGONAL};
 use crate::sdf::region::MARGIN;
 use crate::sdf::samples::{Sample, of_box};
 use crate::sdf::truth::{Side, Truth};
 use crate::sdf::widths::{LEAST_WEIGHT, NEAR, Widths};
 use glam::DVec3;
-use meshsweep_core::internal::sdf::format::SdfHeader;
+use meshsweep_core::SdfKind;
+use meshsweep_core::internal::sdf::format::layout::SDF_BYTES;
 use meshsweep_core::internal::sdf::format::layout::tree::{ENTRY_BYTES, MOST_ENTRIES, WIDTHS};
-use meshsweep_core::internal::sdf::format::layout::{BOOK, SDF_BYTES};
-use meshsweep_core::{SdfKind, SdfLayout};
 
-/// As of a lattice, parts of the diagonal: slack of wanted errors, and the least radius of a box.
-const SLACK: f64 = 1e-4;
-const FLOOR: f64 = 3e-4;
-
-/// The least radius of a box, as a part of the leaf's width, if that is more than the other. Else
-/// large leaves would be proved by too many boxes.
+/// Boxes of no larger radius than this part of the leaf's width are not halved either. Else large
+/// leaves would be proved by too many boxes.
 const FLOOR_OF_WIDTH: f64 = 1.0 / 16.0;
 
 /// The same of a second proof, where widths are limited and the first makes a leaf wider. It saves
@@ -170,7 +166,7 @@ impl Maker<'_> {
     }
 
     fn slack(&self) -> f64 {
-        SLACK * self.domain.diagonal
+        SLACK_OF_DIAGONAL * self.domain.diagonal
     }
 
     /// How much of the allowed width a leaf takes with this value at its centre; 0 if all is
@@ -319,7 +315,8 @@ impl Maker<'_> {
             let half = leaf.of.half();
             let function = Leaf { half, shape: leaf.fitted.shape, offset };
             let boxed = [leaf.of.corner(), 2.0 * half];
-            let floor = |part: f64| (FLOOR * domain.diagonal).max(part * f64::from(width));
+            let floor =
+                |part: f64| (FLOOR_OF_DIAGONAL * domain.diagonal).max(part * f64::from(width));
             let prove = |part| Prover::cell(truth, function, boxed, wanted, floor(part));
             let proof = prove(FLOOR_OF_WIDTH);
             // A leaf that is too wide is halved: smaller boxes cost less.
@@ -368,23 +365,7 @@ impl Maker<'_> {
             let lower = lowest(half, shape, scale.value(code));
             most = most.max(widest(kind, lower, f64::from(book[place])));
         }
-        let book = book.map(|width| width as u16);
-        let [low, high] = [0, BOOK].map(|from| std::array::from_fn(|k| book[from + k]));
-        let header = SdfHeader {
-            origin: domain.origin,
-            per_unit: domain.per_unit,
-            unit: domain.unit,
-            base: scale.base,
-            step: scale.step,
-            kind,
-            layout: SdfLayout::Tree,
-            cells: domain.cells.map(|count| count as u8),
-            steps,
-            low,
-            high,
-        };
-        let mut section = header.write().to_vec();
-        section.extend(entries.into_flattened());
+        let section = section(domain, kind, scale, steps, &book, entries);
         let is_undecided =
             |(leaf, proof): &(&&Made, &Proof)| proof.is_undecided || leaf.is_undecided();
         Ok(Ok(Tree {
@@ -404,7 +385,7 @@ impl Maker<'_> {
 /// The least and the greatest lower end in a leaf with this value at its centre, units.
 fn lowest(half: DVec3, shape: Shape, value: f64) -> [f64; 2] {
     let Linear { value, gradient, rest } = Leaf { half, shape, offset: value }.about(half, half);
-    let reach = gradient.abs().dot(half) + rest;
+    let rise = gradient.abs().dot(half) + rest;
     let [below, above] = losses(shape, half);
-    [value - reach - below, value + reach + above]
+    [value - rise - below, value + rise + above]
 }

@@ -10,13 +10,13 @@ use crate::sdf::widths::weight;
 use meshsweep_core::SdfKind;
 
 /// Steps of the grid along a side of a root cell: two along that of the smallest box.
-const STEPS: usize = 2 << LEVELS;
+const STEPS_OF_ROOT: usize = 2 << LEVELS;
 
 /// Steps along a side of what is sampled at once.
 const AT_ONCE: usize = 8;
 
 /// Most steps along a side of a box that is fitted.
-const MOST_STEPS: usize = 16;
+const MOST_STEPS_OF_BOX: usize = 16;
 
 /// What samples in a box allow.
 #[derive(Debug, Default)]
@@ -79,8 +79,8 @@ impl Grid {
         near: f64,
         watch: Watch<'_>,
     ) -> Result<Self, BuildError> {
-        let blocks = domain.cells.map(|cells| cells * STEPS / AT_ONCE);
-        let side = ROOT * AT_ONCE as f64 / STEPS as f64;
+        let blocks = domain.cells.map(|cells| cells * STEPS_OF_ROOT / AT_ONCE);
+        let side = ROOT * AT_ONCE as f64 / STEPS_OF_ROOT as f64;
         let samples = of_boxes(truth, blocks, side, AT_ONCE, watch)?;
         let places = blocks.map(|blocks| blocks * AT_ONCE + 1);
         let mut all = Batch::default();
@@ -98,8 +98,8 @@ impl Grid {
 
     /// The samples of a box: all, or some at even steps.
     pub fn fill(&self, of: &Box3, batch: &mut Batch) {
-        let (start, size) = (of.start(STEPS), of.size(STEPS));
-        let steps = size.map(|size| size.min(MOST_STEPS));
+        let (start, size) = (of.start(STEPS_OF_ROOT), of.size(STEPS_OF_ROOT));
+        let steps = size.map(|size| size.min(MOST_STEPS_OF_BOX));
         let stride = [0, 1, 2].map(|axis| size[axis] / steps[axis]);
         batch.clear(steps);
         let [x, y, _] = self.places;

@@ -7,7 +7,8 @@
 //! partition  the best boxes for a number of bytes
 //! search     their costs, and the entries of the best
 //! codes      the functions' values, as they are stored
-//! build      the stages, and the section's bytes
+//! build      the stages
+//! encode     the section's bytes
 //! narrow     the best boxes for a largest width
 //! ```
 //!
@@ -19,6 +20,7 @@
 
 mod build;
 mod codes;
+mod encode;
 mod fit;
 mod grid;
 mod leaf;
