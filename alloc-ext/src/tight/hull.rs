@@ -61,7 +61,8 @@ pub(super) fn wrap_obstacle(
         return Err(BuildError::Empty);
     }
     let is_of_rounding = options.margin <= 0.0;
-    let options = &options.of_mesh(input.error_up())?;
+    let input_error = input.error_up();
+    let options = &options.of_mesh(input_error)?;
     let positions: Vec<DVec3> = mesh.positions.iter().map(|&p| Vec3::from(p).as_dvec3()).collect();
     let obstacle = Obstacle::new(&positions, &triangles);
     // The surface that the search starts from has no wires, unless the mesh has only wires.
@@ -150,6 +151,7 @@ pub(super) fn wrap_obstacle(
         void: solid.and_then(|solid| solid.void(&mesh, volume)),
         crosses,
         slack,
+        input_error,
         start,
         filled: filled + editor.enclosed,
         stop,

@@ -110,7 +110,10 @@ impl Options {
         let margin = (self.margin + error).next_up();
         self.goal.check((margin + error).next_up())?;
         let goal = match self.goal {
-            Goal::Slack(slack) => Goal::Slack((slack - error).next_down()),
+            // A little less: the sum of both is rounded up.
+            Goal::Slack(slack) => {
+                Goal::Slack((slack * (1.0 - 4.0 * f64::EPSILON) - error).next_down())
+            }
             goal => goal,
         };
         Ok(Self { margin, goal, ..*self })

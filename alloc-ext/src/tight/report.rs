@@ -56,6 +56,8 @@ pub struct Report {
     pub crosses: bool,
     /// Bounds of the largest distance from a point of the hull to the mesh, in its unit.
     pub slack: Farthest,
+    /// No point of the input is farther than this from the mesh: how far vertices moved.
+    pub input_error: f64,
     /// The initial hull.
     pub start: Start,
     /// Number of closed components that bounded cavities, or lay inside others, and are not in the
@@ -72,6 +74,18 @@ pub struct Report {
 }
 
 impl Report {
+    /// Bounds of the largest distance from a point of the hull to the input, in its unit.
+    #[must_use]
+    pub fn slack_of_input(&self) -> Farthest {
+        let Self { slack: Farthest { lower, upper }, input_error: error, .. } = *self;
+        if error > 0.0 {
+            let lower = (lower - error).next_down().max(0.0);
+            Farthest { lower, upper: (upper + error).next_up() }
+        } else {
+            self.slack
+        }
+    }
+
     /// Says why the search did not come to `goal`, or to a smaller hull that meets it.
     #[must_use]
     pub fn why_stopped(&self, goal: Goal) -> Option<String> {

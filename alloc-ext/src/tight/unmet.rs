@@ -28,7 +28,7 @@ impl Tightness {
     /// Slack or void of a hull that is too loose.
     fn excess(self, report: &Report) -> Option<f64> {
         match (self.slack, self.void) {
-            (Some(asked), _) => Some(report.slack.upper).filter(|&found| found > asked),
+            (Some(asked), _) => Some(report.slack_of_input().upper).filter(|&found| found > asked),
             (None, Some(asked)) => {
                 let found = 100.0 * report.void.unwrap_or(f64::INFINITY);
                 // The search compares volumes; this ratio of them is rounded.

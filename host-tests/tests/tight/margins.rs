@@ -3,14 +3,16 @@
 
 use std::f64::consts::PI;
 
-use meshsweep::BuildError;
+use meshsweep::builder::For;
 use meshsweep::check::{Surface, check_enclosure, check_margin};
 use meshsweep::mesh::{Mesh, RawMesh, repair};
 use meshsweep::progress::Watch;
-use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, wrap};
+use meshsweep::tight::{Goal, Hull, Options, Outcome, Start, hull_mesh, wrap};
+use meshsweep::{BuildError, Builder};
 use meshsweep_host_tests::generate::{
     Rng, Triangles, cube, groove_block, icosphere, needle_comb, scaled, torus,
 };
+use meshsweep_host_tests::oracle::distance_to_mesh;
 
 fn mesh_of((positions, triangles): &Triangles) -> Mesh {
     repair(RawMesh::from_f32(positions, triangles)).expect("a mesh").0
@@ -153,6 +155,40 @@ fn margins_that_cannot_be_had_are_errors() {
     assert_eq!(error(&far, &options(100, 3.39e38)), BuildError::MarginTooLarge);
     let slack = Options::new(Goal::Slack(0.5)).with_margin(0.5);
     assert!(matches!(error(&mesh, &slack), BuildError::SlackWithinMargin { .. }));
+}
+
+/// The file's vertices are doubles that single precision rounds by up to 1/32. So hulls that keep a
+/// slack from the rounded mesh alone would be farther from the file's.
+#[test]
+fn a_slack_is_kept_from_the_file_as_it_is_before_rounding_or_refused() {
+    let far = 1e6;
+    let (positions, triangles) = icosphere(2);
+    // Sums with `far` are exact in double precision.
+    let short = |x: f32| (x * 1_048_576.0).round() / 1_048_576.0;
+    let positions: Vec<[f32; 3]> = positions.iter().map(|p| p.map(short)).collect();
+    let (mut kept, mut refused) = (0, 0);
+    for slack in [0.1, 0.15, 0.2, 0.25, 0.3, 0.4] {
+        let moved = positions.iter().map(|p| p.map(|x| f64::from(x) + far)).collect();
+        let raw = RawMesh::from_f64(moved, triangles.clone());
+        let built = match Builder::new().serve(For::Tight).slack(slack).effort(0.0).build(raw) {
+            Ok(built) => built,
+            Err(BuildError::Unmet(_) | BuildError::SlackWithinMargin { .. }) => {
+                refused += 1;
+                continue;
+            }
+            Err(error) => panic!("{slack}: {error}"),
+        };
+        let hulls = built.blob().tight_hulls().expect("hulls");
+        let mesh = hull_mesh(&hulls.get(0).expect("one"));
+        for p in &mesh.positions {
+            // Exact: both are multiples of 1/16 near `far`.
+            let p = p.map(|x| (f64::from(x) - far) as f32);
+            let distance = distance_to_mesh(p, &positions, &triangles);
+            assert!(distance.lower <= slack, "{slack}: {distance:?}");
+        }
+        kept += 1;
+    }
+    assert!(kept > 0 && refused > 0, "{kept} {refused}");
 }
 
 #[test]

@@ -45,27 +45,21 @@ pub fn run(args: &HullArgs, mesh: &Path) -> Result<(), Failure> {
     tightness.require(hulls.iter().map(|hull| &hull.report)).map_err(failed)?;
     Output::file(&args.output)?.finish(|out| write_ply(&joined(&hulls), out))?;
     let of = if hulls.len() == 1 { "mesh" } else { "part" };
-    let error = loaded.error();
-    let told = |hull: &Hull| told(&hull.report, goal, asked.margin, of, error);
-    let written: Vec<Written> = hulls.iter().map(told).collect();
+    let written: Vec<Written> =
+        hulls.iter().map(|hull| told(&hull.report, goal, asked.margin, of)).collect();
     let notes: Vec<String> = rounded_note(loaded.error()).into_iter().collect();
     written::report(args, &Of::Mesh(mesh, &loaded), &written, &notes)
 }
 
-/// Measures of a hull. `of` names what the hull encloses. The file's mesh is within `error` of the
-/// one that the report is about.
-fn told(report: &Report, goal: Goal, margin: Option<f64>, of: &str, error: f64) -> Written {
-    let [lower, upper] = [report.slack.lower, report.slack.upper];
-    let [lower, upper] = match error > 0.0 {
-        true => [(lower - error).next_down(), (upper + error.next_up()).next_up()],
-        false => [lower, upper],
-    };
+/// Measures of a hull. `of` names what the hull encloses.
+fn told(report: &Report, goal: Goal, margin: Option<f64>, of: &str) -> Written {
+    let slack = report.slack_of_input();
     let notes = margin_note(margin, of).into_iter().chain(no_void_note(&report.void));
     Written {
         faces: report.faces,
         void: report.void.ok(),
-        at_most: Some(upper),
-        at_least: Some(lower.max(0.0)),
+        at_most: Some(slack.upper),
+        at_least: Some(slack.lower),
         level: None,
         time: Some(report.time),
         notes: notes.chain(report.notes()).chain(report.why_stopped(goal)).collect(),
