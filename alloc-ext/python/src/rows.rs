@@ -280,9 +280,9 @@ pub fn in_blocks(
         let block = begin..count.min(begin + size);
         begin = block.end;
         let before = Instant::now();
-        // A block of a row for each thread is not watched, which spares a question about one row the
-        // way to another thread.
-        let is_watched = block.len() > current_num_threads();
+        // A first block is short. It is not watched, which spares a question about few rows the way
+        // to another thread.
+        let is_watched = block.len() > first;
         let work = || work(block, &stop);
         py.detach(|| match is_watched {
             true => on_all_cores_watched(&stop, work),
