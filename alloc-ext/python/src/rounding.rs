@@ -54,7 +54,7 @@ impl Way {
     /// Whether the caller's way misses the box that holds the input. No distance is measured, so it
     /// tells that of ways that are too long for other questions.
     ///
-    /// A plane between both is looked for: one of the box's sides, or one along the way and an axis.
+    /// A plane between both is looked for: a side of the box, or one along the way and an axis.
     pub fn misses(&self, bounds: [[f32; 3]; 2]) -> bool {
         let ([a, b], [low, high]) = (self.ends.map(wide), bounds.map(wide));
         // The box grows by the motion of the way, and by the rounding of differences.
