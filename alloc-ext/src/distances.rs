@@ -1,8 +1,8 @@
 //! A structure of a blob that answers distances from points.
 
 use meshsweep_core::{
-    Budget, BuildFor, Bvh, BvhWithSdf, ClosestPoint, Curve, CurveSegment, Ended, Hint, Hull,
-    Interval, QueryError, ScratchEntry, Side, SignedDistance, TightHull, Verdict, Work,
+    Budget, Bvh, BvhWithSdf, ClosestPoint, Curve, CurveSegment, Ended, Hint, Hull, Interval,
+    QueryError, ScratchEntry, Side, SignedDistance, TightHull, Undecided, Verdict, Work,
 };
 
 /// A structure that answers distances from points.
@@ -137,10 +137,10 @@ impl Distances<'_> {
         Ok(found.into())
     }
 
-    /// Whether anything is within a distance.
+    /// Whether anything is within a distance. A hull hierarchy tells it from the closest point.
     ///
     /// # Errors
-    /// Those of the structure; [`QueryError::NotServed`] by a hull hierarchy.
+    /// Those of the structure.
     pub fn any_within(
         &self,
         point: [f32; 3],
@@ -157,11 +157,35 @@ impl Distances<'_> {
                 let element = found.witness.map(Element::Segment);
                 return Ok(AnyWithin { verdict: found.verdict, element, work: found.work });
             }
-            Self::Hull(_) => return Err(QueryError::NotServed { build_for: BuildFor::Closest }),
+            Self::Hull(hull) => {
+                if !(distance.is_finite() && distance >= 0.0) {
+                    return Err(QueryError::Tolerance);
+                }
+                let near = hull.closest_point(point, budget, scratch)?;
+                return Ok(within_by(&near, distance));
+            }
         };
         let element = found.witness.map(Element::Triangle);
         Ok(AnyWithin { verdict: found.verdict, element, work: found.work })
     }
+}
+
+/// Whether the interval of a closest point tells that it is within a distance.
+fn within_by(near: &ClosestPoint, distance: f32) -> AnyWithin {
+    let Interval { lower, upper } = near.distance;
+    let verdict = if lower > distance {
+        Verdict::No
+    } else if upper <= distance {
+        Verdict::Yes
+    } else {
+        Verdict::Undecided(match near.ended {
+            Ended::Steps => Undecided::Steps,
+            Ended::Scratch => Undecided::Scratch,
+            _ => Undecided::Resolution,
+        })
+    };
+    let triangle = near.triangle.filter(|_| verdict == Verdict::Yes);
+    AnyWithin { verdict, element: triangle.map(Element::Triangle), work: near.work }
 }
 
 /// Whether sides are defined: by the nearest triangle of a closed mesh, or by winding numbers.

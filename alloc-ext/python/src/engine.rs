@@ -1,7 +1,7 @@
 //! Structures that answer about segments and contacts: the box tree, else the hull hierarchy.
 
 use crate::error::NotServedError;
-use crate::model::{BESIDE_HULL, Model};
+use crate::model::{BESIDE_HULL, Model, beyond, grown};
 use crate::rounding::{Way, moved};
 use crate::segments::ends;
 use crate::solids::SolidQueries;
@@ -83,13 +83,16 @@ impl Engine<'_> {
         let points = ends(row);
         let off = [row[6].into(), row[7].into()];
         let bounds = match self {
-            Self::Tree(tree) => (tree.bounds(), tree.surface_error()),
-            Self::Hull(hull) => (hull.bounds(), hull.surface_error()),
+            Self::Tree(tree) => grown(tree.bounds(), beyond(tree.surface_error())),
+            Self::Hull(hull) => grown(hull.bounds(), beyond(hull.surface_error())),
         };
         let way = match is_ray {
             true => Way::of_ray(points, off, bounds),
             false => Way::of_segment(points, moved(row)),
         };
+        if way.misses(bounds) {
+            return Ok(clear);
+        }
         let tree = match self {
             Self::Tree(tree) => SolidQueries { tree: **tree, with_field: None },
             Self::Hull(hull) => {

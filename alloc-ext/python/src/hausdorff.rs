@@ -3,7 +3,7 @@
 use crate::build::unit_named;
 use crate::error::{in_python, refused};
 use crate::mesh::{Given, Taken};
-use crate::pool::run_detached;
+use crate::pool::{Stop, run_detached};
 use meshsweep::hausdorff::{Attained, Direction, Ended, Precision, Refused, hausdorff as measure};
 use meshsweep::load::{Loaded, require_same_unit};
 use meshsweep::mesh::Unit;
@@ -11,7 +11,6 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use std::panic::resume_unwind;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Bounds of the distance. Names are those of `Hausdorff`.
 #[derive(IntoPyObject)]
@@ -62,13 +61,12 @@ fn of_two(
     unit: Option<Unit>,
     direction: Direction,
     precision: &Precision,
-    stop: &AtomicBool,
+    stop: &Stop,
 ) -> PyResult<Bounds> {
     let load = |(mesh, name): (Taken, &str)| {
-        let source = mesh.source(unit);
-        let source = source.map_err(|error| Python::attach(|py| of_mesh(name, error.value(py))))?;
+        let source = mesh.read(unit).map_err(|error| of_mesh(name, &error))?;
         let loaded = source.repaired().map_err(|error| of_mesh(name, &error))?;
-        match stop.load(Ordering::Relaxed) {
+        match stop.is_set() {
             true => Err(PyKeyboardInterrupt::new_err("the distance is not known")),
             false => Ok(loaded),
         }
@@ -79,7 +77,7 @@ fn of_two(
     require_same_unit([(Path::new("a"), first.unit), (Path::new("b"), second.unit)])
         .map_err(|error| refused(&error))?;
     let mut progress = |_: f64, _: f64| {
-        if stop.load(Ordering::Relaxed) {
+        if stop.is_set() {
             // The search returns no error, so a panic ends it. `resume_unwind` reports none, and
             // after Ctrl-C there is no receiver.
             resume_unwind(Box::new("stopped"));

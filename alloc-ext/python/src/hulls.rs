@@ -39,6 +39,14 @@ fn enclosing(hull: &Hull<'_>, stored: &Mesh) -> PyResult<Mesh> {
     })
 }
 
+/// The sum of two lengths, rounded up where double precision does not hold it.
+fn sum_up(a: f32, b: f32) -> f64 {
+    let (a, b) = (f64::from(a), f64::from(b));
+    let sum = a + b;
+    // The difference from the larger one is exact.
+    if sum - a.max(b) == a.min(b) { sum } else { sum.next_up() }
+}
+
 impl Model {
     fn enclosing_hull(&self) -> PyResult<Hull<'_>> {
         let hull = self.blob().hull().ok().filter(|hull| hull.encloses());
@@ -55,7 +63,7 @@ impl Model {
         let hulls = (0..hulls.count()).filter_map(|index| hulls.get(index));
         hulls
             .map(|hull| {
-                let off = f64::from(hull.record().slack) + f64::from(hull.bvh().surface_error());
+                let off = sum_up(hull.record().slack, hull.bvh().surface_error());
                 Ok((arrays(py, &hull_mesh(&hull))?, off))
             })
             .collect()

@@ -42,12 +42,16 @@ impl Taken {
     }
 
     /// Reads a mesh, without repairs.
-    pub fn source(self, unit: Option<Unit>) -> PyResult<Source> {
-        let source = match self {
+    pub fn read(self, unit: Option<Unit>) -> Result<Source, meshsweep::BuildError> {
+        match self {
             Taken::File(file) => Source::of_file(&file, unit),
             Taken::Mesh(mesh) => Source::of(*mesh, unit),
-        };
-        source.map_err(|error| of_build(&error))
+        }
+    }
+
+    /// The same, with the exception for Python.
+    pub fn source(self, unit: Option<Unit>) -> PyResult<Source> {
+        self.read(unit).map_err(|error| of_build(&error))
     }
 
     /// Reads polylines.

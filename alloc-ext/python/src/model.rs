@@ -63,7 +63,6 @@ impl Model {
     /// The box of what is stored, and how far the input may be outside of it. `None` if the box
     /// holds the vertices of the input as f32.
     fn stored_bounds(&self) -> Option<([[f32; 3]; 2], Option<f32>)> {
-        let beyond = |error: f32| (error != 0.0).then_some(error);
         let of_tree = |tree: &Bvh<'_>| (tree.bounds(), beyond(tree.surface_error()));
         let of_distances = self.distances(false).ok().map(|structure| match &structure {
             Distances::Hull(hull) => (hull.bounds(), beyond(hull.surface_error())),
@@ -119,9 +118,15 @@ impl Model {
     }
 }
 
+/// How far the input may be outside of a box, of a structure with this surface error. `None`: the
+/// structure holds f32 vertices.
+pub fn beyond(error: f32) -> Option<f32> {
+    (error != 0.0).then_some(error)
+}
+
 /// A box that was rounded to nearest, larger by `error` and rounded outward. `None`: the box of f32
 /// vertices, which rounding to nearest does not move.
-fn grown(bounds: [[f32; 3]; 2], error: Option<f32>) -> [[f32; 3]; 2] {
+pub fn grown(bounds: [[f32; 3]; 2], error: Option<f32>) -> [[f32; 3]; 2] {
     let Some(error) = error else { return bounds };
     // The sum in f64, and its rounding to f32, are off by less than one step.
     let sum = |x: f32, error: f32| (f64::from(x) + f64::from(error)) as f32;

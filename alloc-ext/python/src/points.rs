@@ -2,12 +2,13 @@
 
 use crate::model::{BESIDE_HULL, BEST_FIRST, Model, budget};
 use crate::record::write;
-use crate::rows::{Found, Lists, QueryRows, Records, in_blocks};
+use crate::rows::{Failed, Found, Lists, QueryRows, Records, in_blocks};
 use meshsweep::bvh::{BATCH, closest_points_until_refused};
 use meshsweep::distances::{Closest, Distances, signed_distance};
 use meshsweep_core::{AllWithin, Budget, CurveNeighbor, Neighbor};
 use numpy::PyArray1;
 use pyo3::prelude::*;
+use rayon::prelude::*;
 
 /// Tolerances and steps.
 type Limits = (f32, f32, Option<u32>);
@@ -53,14 +54,22 @@ impl Model {
         let rows = rows.of_width::<3>()?;
         // A search starts from the answers to earlier points of its batch. Blocks are whole
         // batches, so that `work` does not depend on the size of blocks, which depends on time.
-        in_blocks(py, rows.len(), BATCH, |block| {
-            let records = &mut records[block.start * size..];
-            let begin = block.start;
-            let (found, refused) = closest_points_until_refused(&tree, &rows[block], &budget);
-            for (found, record) in found.into_iter().zip(records.chunks_mut(size)) {
-                write(&Closest::from(found), record);
-            }
-            refused.map_or(Ok(()), |refused| Err((begin + refused.index, refused.error).into()))
+        in_blocks(py, rows.len(), BATCH, |block, stop| {
+            let (begin, end) = (block.start, block.end);
+            let batches = rows[block].par_chunks(BATCH);
+            let batches =
+                batches.zip(records[begin * size..end * size].par_chunks_mut(BATCH * size));
+            let failed = batches.enumerate().find_map_first(|(batch, (rows, records))| {
+                if let Err(stopped) = Failed::if_stopped(stop) {
+                    return Some(stopped);
+                }
+                let (found, refused) = closest_points_until_refused(&tree, rows, &budget);
+                for (found, record) in found.into_iter().zip(records.chunks_mut(size)) {
+                    write(&Closest::from(found), record);
+                }
+                refused.map(|of| Failed::Row(begin + batch * BATCH + of.index, of.error))
+            });
+            failed.map_or(Ok(()), Err)
         })?;
         Ok(PyArray1::from_vec(py, records))
     }

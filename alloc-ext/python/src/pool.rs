@@ -5,13 +5,14 @@
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{Scope, ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::process;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, OnceLock};
-use std::time::Duration;
+use std::thread;
+use std::time::{Duration, Instant};
 
 /// The process that used rayon's global pool first.
 static FIRST: OnceLock<u32> = OnceLock::new();
@@ -21,6 +22,12 @@ static OF_CHILDREN: OnceLock<Box<Child>> = OnceLock::new();
 
 /// Time between two looks for Ctrl-C, while other threads work.
 const SIGNAL_POLL: Duration = Duration::from_millis(50);
+
+/// Time that Ctrl-C leaves to a callback that runs.
+const CALLBACK_WAIT: Duration = Duration::from_secs(5);
+
+/// Time between two looks whether callbacks have ended.
+const CALLBACK_POLL: Duration = Duration::from_millis(1);
 
 struct Child {
     process: u32,
@@ -91,31 +98,91 @@ pub fn on_all_cores_until_stopped<T: Send>(
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
     let Some(pool) = of_child()? else { return Ok(work()) };
-    pool.in_place_scope(|scope| {
-        let (done, result) = channel();
-        // The scope passes on a panic of the work.
-        scope.spawn(move |_| drop(done.send(work())));
-        wait(&result).inspect_err(|_| stop.store(true, Ordering::Relaxed))
-    })
+    pool.in_place_scope(|scope| watched(scope, stop, work))
+}
+
+/// The same of work that never looks for Ctrl-C itself, but at `stop`.
+///
+/// # Errors
+/// Ctrl-C; no threads can be had.
+pub fn on_all_cores_watched<T: Send>(
+    stop: &AtomicBool,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    // A thread of a pool, on which a callback asks, must not wait for that pool.
+    if rayon::current_thread_index().is_some() {
+        return on_all_cores(work);
+    }
+    match of_child()? {
+        Some(pool) => pool.in_place_scope(|scope| watched(scope, stop, work)),
+        None => rayon::in_place_scope(|scope| watched(scope, stop, work)),
+    }
+}
+
+/// Does work on a pool, and looks for Ctrl-C meanwhile, which sets `stop`.
+fn watched<'scope, T: Send + 'scope>(
+    scope: &Scope<'scope>,
+    stop: &AtomicBool,
+    work: impl FnOnce() -> T + Send + 'scope,
+) -> PyResult<T> {
+    let (done, result) = channel();
+    // The scope passes on a panic of the work.
+    scope.spawn(move |_| drop(done.send(work())));
+    wait(&result).inspect_err(|_| stop.store(true, Ordering::Relaxed))
+}
+
+/// Whether detached work is to end. Then the interpreter may end too, and no thread of the work may
+/// take its lock.
+#[derive(Default)]
+pub struct Stop {
+    is_set: AtomicBool,
+    /// Threads that are in a callback.
+    callbacks: AtomicUsize,
+}
+
+impl Stop {
+    pub fn is_set(&self) -> bool {
+        self.is_set.load(Ordering::SeqCst)
+    }
+
+    /// Calls with the interpreter's lock. `None` if the work is to end.
+    pub fn attach<T>(&self, call: impl FnOnce(Python<'_>) -> T) -> Option<T> {
+        // The count is raised before the flag is read. So who sets the flag, then reads a count of
+        // 0, knows that nothing is called from then on.
+        self.callbacks.fetch_add(1, Ordering::SeqCst);
+        let called = if self.is_set() { None } else { Python::try_attach(call) };
+        self.callbacks.fetch_sub(1, Ordering::SeqCst);
+        called
+    }
+
+    /// Ends the work, without the interpreter's lock. Waits for callbacks that run.
+    fn set(&self) {
+        self.is_set.store(true, Ordering::SeqCst);
+        let before = Instant::now();
+        while self.callbacks.load(Ordering::SeqCst) > 0 && before.elapsed() < CALLBACK_WAIT {
+            thread::sleep(CALLBACK_POLL);
+        }
+    }
 }
 
 /// Does work that cannot look for Ctrl-C itself, on threads of its own. Ctrl-C sets the work's
-/// flag, and this function returns at once. The threads run on until the work looks at its flag.
+/// flag, and this function returns when no callback runs. The threads run on until the work looks
+/// at its flag.
 ///
 /// # Errors
 /// Ctrl-C; no threads can be had.
 pub fn run_detached<T: Send + 'static>(
-    work: impl FnOnce(&AtomicBool) -> PyResult<T> + Send + 'static,
+    work: impl FnOnce(&Stop) -> PyResult<T> + Send + 'static,
 ) -> PyResult<T> {
     let pool = ThreadPoolBuilder::new().build();
     let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-    let (stop, (done, result)) = (Arc::new(AtomicBool::new(false)), channel());
+    let (stop, (done, result)) = (Arc::new(Stop::default()), channel());
     let to_stop = Arc::clone(&stop);
     pool.spawn(move || {
         let result = catch_unwind(AssertUnwindSafe(|| work(&to_stop)));
         // After Ctrl-C there is no receiver.
         drop(done.send(result));
     });
-    let result = wait(&result).inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
+    let result = wait(&result).inspect_err(|_| stop.set())?;
     result.unwrap_or_else(|panic| resume_unwind(panic))
 }

@@ -26,17 +26,16 @@ impl Way {
         Self { ends, moved, until: 1.0, is_ray: false }
     }
 
-    /// Of a ray whose origin and direction were moved by so much. The model is no farther than
-    /// `error` from its box. If the direction may be any, or the end is too far away, points may be
-    /// anywhere.
+    /// Of a ray whose origin and direction were moved by so much. The box holds the input. If the
+    /// direction may be any, or the end is too far away, points may be anywhere.
     pub fn of_ray(
         [a, way]: [[f32; 3]; 2],
         [off, off_way]: [f64; 2],
-        (bounds, error): ([[f32; 3]; 2], f32),
+        bounds: [[f32; 3]; 2],
     ) -> Self {
         let origin = a;
         let ([a, way], [low, high]) = ([a, way].map(wide), bounds.map(wide));
-        let radius = 0.5 * norm(minus(high, low)) + f64::from(error);
+        let radius = 0.5 * norm(minus(high, low));
         let centre = core::array::from_fn(|k| 0.5 * (low[k] + high[k]));
         let pace = norm(way) - off_way;
         // The factor covers the rounding of these sums.
@@ -50,6 +49,33 @@ impl Way {
             true => Self { ends: [origin, rounded], moved, until, is_ray: true },
             false => Self { ends: [origin; 2], moved: f64::INFINITY, until: 0.0, is_ray: true },
         }
+    }
+
+    /// Whether the caller's way misses the box that holds the input. No distance is measured, so it
+    /// tells that of ways that are too long for other questions.
+    ///
+    /// A plane between both is looked for: a side of the box, or one along the way and an axis.
+    pub fn misses(&self, bounds: [[f32; 3]; 2]) -> bool {
+        let ([a, b], [low, high]) = (self.ends.map(wide), bounds.map(wide));
+        // The box grows by the motion of the way, and by the rounding of differences.
+        let rounding = |k: usize| 1e-15 * (low[k].abs() + high[k].abs() + self.moved);
+        let half: [f64; 3] =
+            core::array::from_fn(|k| 0.5 * (high[k] - low[k]) + self.moved + rounding(k));
+        let from: [f64; 3] = core::array::from_fn(|k| a[k] - 0.5 * (low[k] + high[k]));
+        let to: [f64; 3] = core::array::from_fn(|k| b[k] - 0.5 * (low[k] + high[k]));
+        let way = minus(b, a);
+        // The factors cover the rounding of these sums.
+        let is_beyond = |k: usize| {
+            from[k].min(to[k]) > half[k] * (1.0 + 1e-14)
+                || from[k].max(to[k]) < -half[k] * (1.0 + 1e-14)
+        };
+        let is_beside = |k: usize| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let (one, other) = (from[i] * way[j], from[j] * way[i]);
+            let reach = half[i] * way[j].abs() + half[j] * way[i].abs();
+            (one - other).abs() > reach + 1e-14 * (reach + one.abs() + other.abs())
+        };
+        (0..3).any(|k| is_beyond(k) || is_beside(k))
     }
 
     /// A clear first hit of the rounded way, where only this fraction of the caller's way is proved

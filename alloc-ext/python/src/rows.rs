@@ -1,11 +1,11 @@
 //! Answers questions about many rows of numbers, on all cores and without the interpreter's lock.
 
 use crate::error::{MeshsweepError, of_query};
-use crate::pool::on_all_cores;
+use crate::pool::{on_all_cores, on_all_cores_watched};
 use crate::record::{Answer, write};
 use meshsweep_core::{QueryError, ScratchEntry};
 use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
-use pyo3::exceptions::PyMemoryError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use rayon::current_num_threads;
@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use std::array;
 use std::collections::TryReserveError;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Rows of a task, at most. With so many the cost of scheduling a task is negligible.
@@ -68,11 +69,15 @@ pub enum Failed {
     /// This row is refused.
     Row(usize, QueryError),
     Memory,
+    /// By Ctrl-C.
+    Stopped,
 }
 
-impl From<(usize, QueryError)> for Failed {
-    fn from((row, error): (usize, QueryError)) -> Self {
-        Self::Row(row, error)
+impl Failed {
+    /// # Errors
+    /// The rows that are left are not wanted.
+    pub fn if_stopped(stop: &AtomicBool) -> Result<(), Self> {
+        if stop.load(Ordering::Relaxed) { Err(Self::Stopped) } else { Ok(()) }
     }
 }
 
@@ -86,6 +91,7 @@ impl From<Failed> for PyErr {
     fn from(failed: Failed) -> Self {
         match failed {
             Failed::Row(row, error) => of_query(Some(row), error),
+            Failed::Stopped => PyKeyboardInterrupt::new_err("the answers are not complete"),
             Failed::Memory => PyMemoryError::new_err("the answers take more memory than there is"),
         }
     }
@@ -163,23 +169,24 @@ impl<'py> QueryRows<'py> {
         let (floats, size) = (self.0.as_slice()?, self.1);
         let (count, width) = (self.0.shape()[0], self.0.shape()[1]);
         let mut records = self.zeroed()?;
-        in_blocks(self.py(), count, current_num_threads(), |Range { start, end }| {
+        in_blocks(self.py(), count, current_num_threads(), |Range { start, end }, stop| {
             let task_rows = task_rows(end - start);
             let rows = floats[start * width..end * width].par_chunks(task_rows * width);
             let tasks =
                 rows.zip(records[start * size..end * size].par_chunks_mut(task_rows * size));
-            let refused = tasks.enumerate().find_map_first(|(task, (rows, records))| {
+            let failed = tasks.enumerate().find_map_first(|(task, (rows, records))| {
                 let mut scratch = vec![ScratchEntry::EMPTY; entries];
                 let mut pairs = rows.chunks(width).zip(records.chunks_mut(size)).enumerate();
-                pairs.find_map(|(index, (row, record))| match one(row, &mut scratch) {
-                    Ok(answer) => {
-                        write(&answer, record);
-                        None
-                    }
-                    Err(error) => Some((start + task * task_rows + index, error)),
-                })
+                let answered = pairs.try_for_each(|(index, (row, record))| {
+                    Failed::if_stopped(stop)?;
+                    let answer = one(row, &mut scratch);
+                    let row = start + task * task_rows + index;
+                    write(&answer.map_err(|error| Failed::Row(row, error))?, record);
+                    Ok(())
+                });
+                answered.err()
             });
-            refused.map_or(Ok(()), |refused| Err(refused.into()))
+            failed.map_or(Ok(()), Err)
         })?;
         Ok(PyArray1::from_vec(self.py(), records))
     }
@@ -198,13 +205,14 @@ impl<'py> QueryRows<'py> {
     ) -> PyResult<Lists<'py>> {
         let (rows, size) = (self.of_width::<N>()?, self.1);
         let (mut begins, mut records, mut is_complete) = (vec![0], Vec::new(), Vec::new());
-        in_blocks(self.py(), rows.len(), current_num_threads(), |block| {
+        in_blocks(self.py(), rows.len(), current_num_threads(), |block, stop| {
             let (begin, task_rows) = (block.start, task_rows(block.len()));
             let task = |(task, rows): (usize, &[[f32; N]])| {
                 let (mut ends, mut records) = (Vec::new(), Vec::new());
                 let mut scratch = vec![ScratchEntry::EMPTY; entries];
                 let mut answers = vec![empty; FIRST_CAPACITY];
                 for (index, row) in rows.iter().enumerate() {
+                    Failed::if_stopped(stop)?;
                     let mut ask = |answers: &mut Vec<A>| {
                         let found = one(*row, answers, &mut scratch);
                         found.map_err(|error| Failed::Row(begin + task * task_rows + index, error))
@@ -255,8 +263,9 @@ fn task_rows(rows: usize) -> usize {
     (rows / (TASKS_PER_THREAD * current_num_threads())).clamp(1, ROWS_PER_TASK)
 }
 
-/// Does the work of successive blocks of rows on all cores, and looks for Ctrl-C between them. The
-/// first has `first` rows. The others have `first` times a power of two, and at least `first`.
+/// Does the work of successive blocks of rows on all cores, and looks for Ctrl-C between them and
+/// meanwhile: the work then sees a flag. The first block has `first` rows. The others have `first`
+/// times a power of two, and at least `first`.
 ///
 /// # Errors
 /// Of a row that is refused; Ctrl-C; the memory is too short.
@@ -264,14 +273,21 @@ pub fn in_blocks(
     py: Python<'_>,
     count: usize,
     first: usize,
-    mut work: impl FnMut(Range<usize>) -> Result<(), Failed> + Send,
+    mut work: impl FnMut(Range<usize>, &AtomicBool) -> Result<(), Failed> + Send,
 ) -> PyResult<()> {
-    let (mut begin, mut size) = (0, first);
+    let (mut begin, mut size, stop) = (0, first, AtomicBool::new(false));
     while begin < count {
         let block = begin..count.min(begin + size);
         begin = block.end;
         let before = Instant::now();
-        py.detach(|| on_all_cores(|| work(block)))??;
+        // A first block is short. It is not watched, which spares a question about few rows the way
+        // to another thread.
+        let is_watched = block.len() > first;
+        let work = || work(block, &stop);
+        py.detach(|| match is_watched {
+            true => on_all_cores_watched(&stop, work),
+            false => on_all_cores(work),
+        })??;
         py.check_signals()?;
         match before.elapsed() {
             took if took < LEAP_BELOW && 16 * size <= MAX_BLOCK_ROWS => size *= 16,

@@ -4,7 +4,7 @@ use crate::build::{named, unit_named};
 use crate::error::{BuildError, in_python, of_build, of_query, refused};
 use crate::mesh::Given;
 use crate::model::Model;
-use crate::pool::run_detached;
+use crate::pool::{Stop, run_detached};
 use meshsweep::builder::{Builder, For};
 use meshsweep::curve::Polyline;
 use meshsweep::trade as of;
@@ -14,7 +14,6 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Predicted instructions of a processor.
 #[derive(IntoPyObject)]
@@ -149,7 +148,7 @@ impl Wanted<'_> {
             At::Points(points) => (None, points),
         };
         let (mesh, unit) = (mesh.taken()?, unit_named(unit.as_deref())?);
-        let measure = move |stop: &AtomicBool| {
+        let measure = move |stop: &Stop| {
             let reporting = (stop, progress.as_ref());
             if mesh.is_curve() {
                 if word == For::Segment {
@@ -196,7 +195,7 @@ type Report<'a> = dyn Fn(usize, usize) + Sync + 'a;
 /// Measures at points, and reports to `progress`. An exception of `progress` ends the work, and so
 /// does `stop`.
 fn until_stopped(
-    (stop, progress): (&AtomicBool, Option<&Py<PyAny>>),
+    (stop, progress): (&Stop, Option<&Py<PyAny>>),
     points: &[[f32; 3]],
     measure: impl FnOnce(&Report<'_>) -> Result<Trade, QueryError>,
 ) -> PyResult<Trade> {
@@ -205,13 +204,14 @@ fn until_stopped(
     }
     let raised = Mutex::new(None);
     let report = |done: usize, of: usize| {
-        let reported = Python::attach(|py| {
-            if stop.load(Ordering::Relaxed) {
-                return Err(PyKeyboardInterrupt::new_err("the trade is not complete"));
-            }
-            let stage = ("measuring", done as f64 / of.max(1) as f64);
-            progress.map_or(Ok(()), |progress| progress.call1(py, stage).map(drop))
-        });
+        let stage = ("measuring", done as f64 / of.max(1) as f64);
+        let reported = match progress {
+            _ if stop.is_set() => None,
+            None => Some(Ok(())),
+            Some(progress) => stop.attach(|py| progress.call1(py, stage).map(drop)),
+        };
+        let stopped = || Err(PyKeyboardInterrupt::new_err("the trade is not complete"));
+        let reported = reported.unwrap_or_else(stopped);
         if let Err(error) = reported {
             if let Ok(mut raised) = raised.lock() {
                 raised.get_or_insert(error);

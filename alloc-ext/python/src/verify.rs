@@ -4,7 +4,7 @@ use crate::build::unit_named;
 use crate::error::{BuildError, of_build};
 use crate::mesh::{Given, Taken};
 use crate::model::Model;
-use crate::pool::run_detached;
+use crate::pool::{Stop, run_detached};
 use meshsweep::check::{
     Against, FilePolyline, Finding, Outcome, verify as prove, verify_file, verify_repair,
 };
@@ -16,7 +16,6 @@ use meshsweep_core::internal::format::layout::VertexFormat;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Structure, outcome, claim, and what was counted.
 type Found = (&'static str, &'static str, String, Vec<(&'static str, usize)>);
@@ -31,7 +30,7 @@ pub fn verify(
     frames: Vec<PathBuf>,
 ) -> PyResult<Vec<Found>> {
     let (mesh, unit) = (mesh.taken()?, unit_named(unit.as_deref())?);
-    let prove = move |stop: &AtomicBool| of_any(model.get(), mesh, unit, &frames, stop);
+    let prove = move |stop: &Stop| of_any(model.get(), mesh, unit, &frames, stop);
     let findings = py.detach(|| run_detached(prove))?;
     let found = |Finding { structure, outcome, words, counts }| {
         let outcome = match outcome {
@@ -49,7 +48,7 @@ fn of_any(
     mesh: Taken,
     unit: Option<Unit>,
     frames: &[PathBuf],
-    stop: &AtomicBool,
+    stop: &Stop,
 ) -> PyResult<Vec<Finding>> {
     let blob = model.blob();
     if blob.curve().is_ok() {
@@ -99,9 +98,9 @@ fn of_mesh(
     source: &Source,
     loaded: &Loaded,
     keys: &[KeyFrame],
-    stop: &AtomicBool,
+    stop: &Stop,
 ) -> PyResult<Vec<Finding>> {
-    let goes_on = || match stop.load(Ordering::Relaxed) {
+    let goes_on = || match stop.is_set() {
         true => Err(PyKeyboardInterrupt::new_err("the proofs are not complete")),
         false => Ok(()),
     };

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from conftest import CORNERS, FACES, distances, orientation, sphere, winding_numbers
 from meshsweep import Side, Verdict
+from meshsweep._rounding import rounded
 
 SCALES = [1.0, 1e-30, 1e30]
 
@@ -133,6 +134,31 @@ def test_lists_give_the_records_of_a_row_when_they_are_wanted():
     with pytest.raises(IndexError):
         found[60]
     assert "60 rows" in repr(found)
+    # A record equals no other as a whole, so lists are not searched.
+    assert not hasattr(found, "index") and not hasattr(found, "count")
+
+
+def test_a_hull_hierarchy_tells_what_is_within_from_its_closest_points():
+    mesh = sphere(24, 32)
+    part, tree = meshsweep.build(mesh, "hull"), meshsweep.build(mesh)
+    for points in [around(7, 2.0, 200), around(7, 2.0, 200).astype(np.float32)]:
+        true = distances(points, *mesh).min(axis=1)
+        found, wanted = part.within(points, 0.4), tree.within(points, 0.4)
+        assert (true[found.verdict == Verdict.NO] > 0.4).all()
+        assert (true[found.verdict == Verdict.YES] <= 0.4 + 1e-6).all()
+        is_certain = found.verdict != Verdict.UNDECIDED
+        assert is_certain.mean() > 0.95
+        assert (found.verdict == wanted.verdict)[is_certain].all()
+        assert (found.triangle[found.verdict != Verdict.YES] == -1).all()
+    few = part.within(points, 0.4, steps=1)
+    assert (few.ended[few.verdict == Verdict.UNDECIDED] == meshsweep.Ended.STEPS).all()
+
+
+def test_the_least_long_doubles_count_as_moved():
+    if np.finfo(np.longdouble).eps == np.finfo(np.float64).eps:
+        pytest.skip("long doubles are doubles")
+    near, moved = rounded(np.array([[np.longdouble("1e-400"), 0, 0], [1, 0, 0]], np.longdouble))
+    assert moved is not None and moved[0] > 0 and moved[1] == 0 and not near[0].any()
 
 
 @pytest.mark.parametrize("count", [5, 5000])

@@ -10,6 +10,7 @@ from conftest import CORNERS, FACES
 from meshsweep import Facing, Verdict
 
 ASIDE = np.array([0.01, 0, 0])
+BESIDE = np.array([[1e2, 0, 0], [0, 0, -1e2], [1e6, 1e6, 2e6]])
 LOW, HIGH = np.array([4096.0, 0, 0]), np.array([4097.0, 1, 1])
 
 
@@ -103,6 +104,12 @@ def test_a_ray_that_hits_is_not_called_clear_because_it_was_rounded(kind, reques
     aside = part.first_hit_of_ray(starts + ASIDE, ways)
     assert (aside.verdict == Verdict.NO).mean() > 0.95
     assert (part.first_hit_of_ray(starts, -ways).verdict == Verdict.NO).all()
+    # From far away a ray that misses the box is clear, and one at the box is not.
+    centre = 0.5 * (LOW + HIGH)
+    far = centre + np.array([0.3, 0.9, 0.1]) * 1e7 + 1 / 3
+    beside = part.first_hit_of_ray([far] * 3, [centre - far + aside for aside in BESIDE])
+    assert (beside.verdict == Verdict.NO).all()
+    assert part.first_hit_of_ray(far, centre - far).verdict != [Verdict.NO]
     # Rounding leaves little of such directions.
     tiny = part.first_hit_of_ray(starts, [[1.1e-45, 0, -1.1e-45]])
     assert (tiny.verdict == Verdict.UNDECIDED).all() and np.isinf(tiny.t_upper).all()

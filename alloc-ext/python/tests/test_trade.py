@@ -64,6 +64,7 @@ def test_what_cannot_be_measured_is_refused(fixtures):
         ({"count": 0}, "at least 1"),
         ({"count": 1.5}, "count: a whole number"),
         ({"count": 2**70}, "count: .* is none from 0"),
+        ({"count": 2**32 - 1}, "count: at most 1000000"),
         ({"for_": None}, "closest, segment"),
         ({"unit": 3}, "unit: a string"),
     ]:

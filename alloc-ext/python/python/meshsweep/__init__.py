@@ -15,8 +15,9 @@ input the bits of all fields except `work` are those that firmware computes.
 
 **Fields of a search.** `work` counts its operations: bounds that were tested, triangles that were
 tested or measured, nodes that were opened. It measures cost without a clock. `ended`, an `Ended`,
-says why the search ended. The option `steps` is the most nodes that a search of a row may open;
-`None` is no limit. After so many steps an interval is wider, and holds; a verdict is `UNDECIDED`.
+says why the search ended. The option `steps` is the most nodes that each search may open; `None`
+is no limit. Rows in double precision have more than one search. After so many steps an interval is
+wider, and holds; a verdict is `UNDECIDED`.
 
 **Which structure answers.** `closest_point` asks the box tree of "closest", else the curves, else
 the hull hierarchy, else the finest tight hull; so does `within`. `first_hit`, `all_hits`, `overlap`

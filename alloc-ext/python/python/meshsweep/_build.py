@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 from . import _meshsweep
@@ -25,7 +25,7 @@ def build(
     tribox_error: float | None = None,
     orient: str | None = None,
     extrema: bool = False,
-    tight_faces: Sequence[int] | None = None,
+    tight_faces: Iterable[int] | None = None,
     slack: float | None = None,
     void_percent: float | None = None,
     margin: float | None = None,
@@ -131,9 +131,13 @@ def build(
     for check, names in _CHECKS:
         options |= {name: check(options[name], name, BuildError) for name in names}
     if tight_faces is not None:
-        if None in tight_faces:
+        # A generator gives its numbers once.
+        faces = list(tight_faces)
+        if not faces:
+            raise BuildError("tight_faces: at least one number is wanted")
+        if None in faces:
             raise BuildError("tight_faces: whole numbers are wanted, not None")
-        options["tight_faces"] = [whole(most, "tight_faces", BuildError) for most in tight_faces]
+        options["tight_faces"] = [whole(most, "tight_faces", BuildError) for most in faces]
     with Bar(progress) as on_progress:
         return Model(_meshsweep.build(given(mesh), options, on_progress))
 

@@ -119,7 +119,8 @@ class Points(OpenBlob):
     ) -> Records:
         """Whether the surface is at most `distance` from each point: one number, or shape (n,).
 
-        The structures of `closest_point` answer.
+        The structures of `closest_point` answer; a hull hierarchy by the interval of the closest
+        point, so rows are `UNDECIDED` where the distance is within it.
 
         Fields: `verdict` (a `Verdict`: 0 only where it is proved that nothing is so near);
         `triangle`, the witness of a `YES`, or -1; of curves `polyline` and `segment`; `ended`;
@@ -146,7 +147,8 @@ class Points(OpenBlob):
 
         Fields: `lower`, `upper`, `point`, `triangle`, as those of `closest_point`; of curves
         `polyline` and `segment`. If the mesh has fewer triangles, rows have fewer records. `frame`
-        is that of `closest_point`. Memory that is too short for all answers raises `MemoryError`.
+        is that of `closest_point`. If the system refuses the memory for all answers, `MemoryError`
+        is raised.
         """
         most = whole(count, "count")
         if not most:

@@ -1,7 +1,7 @@
 """Answers as NumPy records. `src/record.rs` writes them in this order."""
 
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator
 from enum import IntEnum
 from typing import Any, SupportsIndex, cast, overload
 
@@ -142,7 +142,7 @@ def ask_lists(
     return begins, raw.view(dtype).view(np.recarray), is_complete
 
 
-class Lists(Sequence[Records]):
+class Lists:
     """Answers to n rows that have any number of records each: `lists[3]` has those of row 3.
 
     All records at once spare the time of making n arrays: those of row 3 are
@@ -169,6 +169,9 @@ class Lists(Sequence[Records]):
             return [self[one] for one in range(*row.indices(len(self)))]
         at = range(len(self))[row]
         return cast(Records, self.records[self.begins[at] : self.begins[at + 1]])
+
+    def __iter__(self) -> Iterator[Records]:
+        return (self[row] for row in range(len(self)))
 
     def __repr__(self) -> str:
         return f"<meshsweep.Lists of {len(self)} rows: {len(self.records)} records>"

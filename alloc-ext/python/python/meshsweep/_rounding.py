@@ -25,9 +25,10 @@ def rounded(rows: NDArray[Any]) -> tuple[NDArray[np.float32], NDArray[np.float32
     with np.errstate(invalid="ignore"):
         off = np.abs(wide - near)
     if rows.dtype.kind in "iu" or rows.dtype.itemsize > 8:
-        # The conversion to double precision rounds large integers and long doubles.
+        # The conversion to double precision rounds large integers and long doubles, and the least
+        # of them to 0.
         is_exact = (np.abs(wide) < 2.0**53) if rows.dtype.kind in "iu" else wide == rows
-        off = np.where(is_exact, off, off + np.abs(wide) * 2.0**-52)
+        off = np.where(is_exact, off, off + np.abs(wide) * 2.0**-52 + 5e-324)
     off[~np.isfinite(off)] = 0.0
     if not np.any(off):
         return near, None

@@ -13,6 +13,9 @@ from ._mesh import Bar, Mesh, OnProgress, Progress, given
 from ._meshsweep import BuildError
 from ._model import Model
 
+# Points or segments of a kind, at most.
+_MOST = 1_000_000
+
 
 class Instructions(NamedTuple):
     """Predicted instructions of a query on a processor."""
@@ -95,8 +98,8 @@ def trade(
     """Measures the widest interval and the cost of each setting: `meshsweep trade`.
 
     `mesh`, `unit` and `closed` as of `build`. `for_` is "closest" or "segment". `at` is "near" the
-    surface, "far", or a "path", of `count` points or segments; or points of shape (n, 3), segments
-    of shape (n, 2, 3), which are rounded to single precision.
+    surface, "far", or a "path", of `count` points or segments, at most a million; or points of
+    shape (n, 3), segments of shape (n, 2, 3), which are rounded to single precision.
 
     Curves are measured for "closest". Their rows are of distances, of verdicts of `within`, and, of
     a fence, of sides.
@@ -196,6 +199,8 @@ def _wanted(
     most = whole(count, "count", BuildError)
     if not most:
         raise BuildError("count: at least 1 is wanted")
+    if most > _MOST:
+        raise BuildError(f"count: at most {_MOST} is wanted, not {most}")
     return {
         "mesh": given(mesh),
         "for_": word(for_, "for_", BuildError) or str(for_),

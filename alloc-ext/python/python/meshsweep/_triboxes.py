@@ -85,8 +85,9 @@ class TriboxQuestions(OpenBlob):
         if it is clear; `tribox`, the node that it may enter there, or -1; `ended`; `work`.
 
         Segments are rounded to single precision. A `NO` is proved for the segment as it was given:
-        of one that was moved, by up to 64 lower bounds of distances along it, which cost ten times
-        as much. `t_lower` of others is that of the rounded segment.
+        of one that was moved, by up to 64 lower bounds of distances along it, which typically cost
+        ten times as much, at most some forty times. `t_lower` of others is that of the rounded
+        segment.
         """
         question, dtype = self._model.tribox_first_hit, _records.TRIBOX_HIT
         return ask(question, dtype, moved_pairs(starts, ends), whole(steps, "steps"))
