@@ -140,7 +140,8 @@ pub fn on_board(steps: &mut Steps, tools: &Tools, asked: &[&str]) {
         "{ON_BOARD} queries; stack, scratch: bytes of RAM; a tick is 40 instructions"
     ));
     table.note(
-        "bvh BLOB RELATIVE, sweep BLOB STEP RELATIVE: closest points; refine BLOB RADIUS ERROR",
+        "bvh BLOB RELATIVE, sweep BLOB STEP RELATIVE: closest points; refine BLOB RADIUS ERROR; \
+         field, beyond, units BLOB: a field in it, about it, in whole units",
     );
     say!("{}", table.text());
 }
