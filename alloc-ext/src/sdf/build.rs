@@ -89,7 +89,8 @@ struct Candidate<'a> {
 /// Proves a field; `None` if the errors do not fit their numbers.
 type Prove<'a> = Box<dyn FnOnce(Watch<'_>) -> Result<Option<Field>, BuildError> + 'a>;
 
-/// The second draft is proved only if the proved field's mean width is above this times the draft's.
+/// The second draft is proved only if the proved field is wider, in the mean, than this times the
+/// draft.
 const ENOUGH: f64 = 1.05;
 
 impl Work<'_> {

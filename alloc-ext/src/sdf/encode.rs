@@ -20,9 +20,10 @@ impl Stored {
     /// The stored errors include how far the mesh may be from the input, units, and what the value
     /// of a place loses.
     ///
-    /// Move each vertex from its place in the mesh to its place in the input: by `off` at most. So a
-    /// distance changes by `off` at most. If the surface passes the point on the way, the distances
-    /// before and after add up to `off` at most. So a signed distance changes by no more either.
+    /// Move each vertex from its place in the mesh to its place in the input: by `off` at most. So
+    /// a distance changes by `off` at most. If the surface passes the point on the way, the
+    /// distances before and after add up to `off` at most. So a signed distance changes by no more
+    /// either.
     pub fn new(off: f64, step: u16) -> Self {
         Self { below: off + MARGIN, above: off + MARGIN + f64::from(value_loss(step)) }
     }

@@ -28,8 +28,8 @@
 //! the next entry that holds what it needs. A leaf is lowered by whole codes and gets the width
 //! that it needs, and the book of widths is made again. Nothing relies on samples.
 //!
-//! *One proof.* Both layouts are drafted, and the narrower draft is proved: a proof takes about half
-//! of the time. It widens the mean, in small fields by much. So the other draft is proved too if
+//! *One proof.* Both layouts are drafted, and the narrower draft is proved: a proof takes about
+//! half of the time. It widens the mean, in small fields by much. So the other draft is proved too if
 //! the proved field is wider than it by more than a twentieth. With this and with groups of
 //! triangles (`region`), a field of 16 KiB of the horse takes 0.55 of the processors' time that it
 //! took (*historical*).

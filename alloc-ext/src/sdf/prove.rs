@@ -16,8 +16,8 @@ use meshsweep_core::SdfKind;
 /// many are wide for another reason.
 const MOST_BOXES: usize = 200_000;
 
-/// Wanted errors are above those of the samples, at least by this part of the diagonal. Samples miss
-/// what lies between them, and a proof without slack never ends.
+/// Wanted errors are above those of the samples, at least by this part of the diagonal. Samples
+/// miss what lies between them, and a proof without slack never ends.
 pub(super) const SLACK_OF_DIAGONAL: f64 = 1e-4;
 
 /// Boxes of no larger radius than this part of the diagonal are not halved.

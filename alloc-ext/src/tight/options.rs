@@ -96,9 +96,9 @@ impl Options {
         Self { goal, margin: 0.0, effort: 1.0, time_limit: None, vertex_bits }
     }
 
-    /// The options of a hull of a mesh of which every point of the input is within `error`. The hull
-    /// keeps that distance too, so that it holds the input as it was before vertices moved. And its
-    /// slack is as much less, so that it is the slack from the input.
+    /// The options of a hull of a mesh of which every point of the input is within `error`. The
+    /// hull keeps that distance too, so that it holds the input as it was before vertices moved.
+    /// And its slack is as much less, so that it is the slack from the input.
     ///
     /// # Errors
     /// As [`Goal::check`].

@@ -13,8 +13,8 @@
 //! kind surface or signed bounds its distance everywhere. One of kind solid bounds it where the
 //! lower end is above 0, which is outside; inside and next to the surface the tree answers.
 //!
-//! *What it spares.* B is a blob of `bracket.stl` with a box tree and a signed field of 16 KiB in the
-//! tree layout: `meshsweep build fixtures/bracket.stl --for closest,sdf -o B`. Mean instructions of
+//! *What it spares.* B is a blob of `bracket.stl` with a box tree and a signed field of 16 KiB in
+//! the tree layout: `meshsweep build fixtures/bracket.stl --for closest,sdf -o B`. Mean instructions of
 //! a Cortex-M4F at points up to a tenth of the diagonal from the surface, by
 //! `cargo xtask count --board "within B D" "within-both B D" "near B T" "near-both B T"
 //! "bounds-both B T"`, D a part of the diagonal and T a tolerance:
@@ -25,10 +25,12 @@
 //! | closest point to 10 % / 1 % / exact | 7,075 / 8,045 / 9,317 | 5,848 / 6,276 / 7,398 |
 //! | distance without a point to 10 % / 1 % | 7,075 / 8,045 | 3,357 / 6,098 |
 //!
-//! Where the field decides `within`, 240 instructions are the least. Where it does not, the distance
-//! is nearly the one asked about, and the box tree searches as for a closest point. *Lost* (*historical*): a
-//! second look-up at a point towards or away from the surface decides one such question in ten; the
-//! look-up inlined in the question saves 2 % on a Cortex-M4F and takes more stack on a Cortex-M0.
+//! Where the field decides `within`, 240 instructions are the least. Where it does not, the
+//! distance is nearly the one asked about, and the box tree searches as for a closest point.
+//!
+//! *Lost* (*historical*). A second look-up at a point towards or away from the surface decides one
+//! such question in ten. The look-up inlined in the question saves 2 % on a Cortex-M4F and takes
+//! more stack on a Cortex-M0.
 //!
 //! | file | owns |
 //! | --- | --- |

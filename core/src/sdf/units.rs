@@ -27,8 +27,9 @@ impl Sdf<'_> {
     /// `upper` is below 0; of kind solid only outside is told.
     ///
     /// Outside of the field, `lower` is the greater of two bounds: that of the field's nearest
-    /// place, less 2, and the largest distance of a coordinate from that place's, less 1. `upper` is
-    /// that of the nearest place, at least 0, plus the sum of the coordinates' distances from it.
+    /// place, less 2, and the largest distance of a coordinate from that place's, less 1. `upper`
+    /// is that of the nearest place, at least 0, plus the sum of the coordinates' distances from
+    /// it.
     ///
     /// Cost: one look-up in integers, the same for every place of a lattice, and
     /// [`steps`](Sdf::steps) entries at most of a tree; no scratch memory.
